@@ -31,7 +31,7 @@ Contacts contacts_of(const SceneTree& scene, const Surface& surface, const CutOp
     for (const VoxelPair& p : surface.pairs)
       if (are_apart(p.u, p.v) && p.distance < adjacent_radius(scene.voxel))
         meet(p.u, p.v, std::max(scene.merge_tree.births[p.u], scene.merge_tree.births[p.v]));
-  } else if (options.value < scene.distance) {  // else no edge joins two components
+  } else if (options.value < scene.distance) {  // otherwise, no edge joins two components
     for_each_pair_within(
         scene.vertices, scene.distance,
         [&](Index i, Index j, double length) {
@@ -48,8 +48,8 @@ Contacts contacts_of(const SceneTree& scene, const Surface& surface, const CutOp
 std::vector<Index> components_of(const SceneTree& scene, const VoxelGrid& grid,
                                  const Surface& surface, const CutOptions& options,
                                  const RunContext& context) {
-  // Section V.C: the sets joined to 0-simplices of infinite persistence. At the distance of the
-  // complex, every merge is done.
+  // Section V.C: the sets joined to 0-simplices of infinite persistence. If the cut is at the
+  // largest distance of the complex, every merge is performed.
   if (scene.method == Method::paper) return scene.merge_tree.components(options.value);
   std::vector<Index> component_of = scene.merge_tree.basins(options.value, options.min_part);
   if (scene.method == Method::supervoxels) return component_of;

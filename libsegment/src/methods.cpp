@@ -32,13 +32,13 @@ namespace {
 constexpr double kNeighbourhood = 3, kOfNormals = 2.4, kSquareOfBase = 0.6;
 constexpr double kAdjacent = 1.79;  // a little more than sqrt(3): voxels whose corners touch
 
-/// True if voxels are so small that the points of a surface do not touch: voxels have fewer
-/// adjacent voxels on average than a plane that is sampled as coarsely as the grid. A thin object,
-/// such as a pen or a cable, has few adjacent voxels as well. Therefore, voxels of half the edge
-/// are counted: they tell whether there are more points than voxels; duplicate points do not change
-/// this. Halving the edge doubles the voxels of a line, quadruples those of a plane, and keeps the
-/// number for single points; random points with too few adjacent voxels reach at most 1.45 times as
-/// many.
+/// True if the voxels are so small that the points of a surface leave gaps between them. A voxel
+/// then has fewer adjacent voxels on average than in a plane that is sampled as coarsely as the
+/// grid. A thin object, such as a pen or a cable, has few adjacent voxels as well. To tell these
+/// two cases apart, the voxels of half the edge are counted: if there are not many more of them,
+/// most voxels have only one point. Duplicate points do not change this number. Halving the edge
+/// doubles the voxels of a line, quadruples those of a plane, and does not change the number of
+/// single points; random points with too few adjacent voxels reach at most 1.45 times as many.
 bool is_too_fine(const Scene& scene, Index voxels, const VoxelPairs& pairs, double voxel) {
   constexpr double fewest = 6, of_half = 1.6;
   const auto adjacent = std::ranges::count_if(
@@ -48,7 +48,7 @@ bool is_too_fine(const Scene& scene, Index voxels, const VoxelPairs& pairs, doub
   return static_cast<double>(half.cells.size()) < of_half * static_cast<double>(voxels);
 }
 
-/// The concavity at each voxel, and the data that it needs.
+/// The concavity at each voxel, and the normals from which it was computed.
 struct Relief {
   Points normals;
   std::vector<double> concavity;
@@ -67,8 +67,8 @@ double range_of(const Points& centroids, std::size_t v, const Vec3& viewpoint) {
   return std::hypot(row[0] - viewpoint[0], row[1] - viewpoint[1], row[2] - viewpoint[2]);
 }
 
-/// Adds to the concavity where the surface is seen at such a slant that it may not be a surface:
-/// sheets of points between an object and its background.
+/// Increases the concavity where the surface is seen at a steep slant. Such points may not lie on a
+/// surface at all, but on a sheet of points between an object and its background.
 void add_grazing(const Points& centroids, const Vec3& viewpoint, Relief& relief) {
   constexpr double largest_cosine = 0.3, weight = 0.3;
   for (std::size_t v = 0; v < relief.concavity.size(); ++v) {
@@ -81,10 +81,12 @@ void add_grazing(const Points& centroids, const Vec3& viewpoint, Relief& relief)
   }
 }
 
-/// The concavity that the same steps find where the supporting plane is free, which is noise.
+/// Measures the noise of the concavity: applies the same steps to free patches of the supporting
+/// plane, where any concavity is noise. Empty without a plane.
 ConcavityNoise noise_of(const Scene& scene, double voxel, const RunContext& context) {
-  constexpr double side = 12;      // voxels
-  constexpr int fewest_near = 16;  // radius in voxels within which the surface must be whole
+  constexpr double side = 12;  // voxels
+  // A voxel with fewer near voxels is not used: the surface around it is not whole.
+  constexpr int fewest_near = 16;
   if (!scene.plane) return {};
   const std::vector<Index> points =
       free_patches(scene.cloud, scene.points.on, scene.points.beyond, *scene.plane, side * voxel);

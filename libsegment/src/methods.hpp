@@ -14,8 +14,8 @@
 
 namespace ph::segment {
 
-/// Writes the stage table and, between stages, reports progress and obeys a stop request. A stage
-/// that comes again keeps its row: its times add up, and its last count stays.
+/// Fills the stage table and, between stages, reports progress and obeys a stop request. A stage
+/// that is repeated keeps its row: its times are added, and its last count is kept.
 class StageClock {
  public:
   StageClock(const RunContext& context, std::vector<Stage>& stages)
@@ -28,8 +28,8 @@ class StageClock {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-/// The points above the supporting plane, or (as `beyond`) everything in range if there is no
-/// plane.
+/// A cloud and its supporting plane. `points` contains the points in range, divided by the plane;
+/// without a plane, all of them are in `points.beyond`.
 struct Scene {
   CloudView cloud;
   std::optional<Plane> plane;
@@ -50,22 +50,24 @@ struct VoxelFiltration {
   std::vector<NoiseAt> noise;  ///< method surface: see Segmentation
 };
 
-/// Method surface: the pairs of voxels within each other's neighbourhood, see Surface.
+/// For method surface: the pairs of voxels that are in each other's neighbourhood, see Surface.
 VoxelPairs near_voxels(const VoxelGrid& grid, double voxel, const RunContext& context);
-/// Method surface: an edge of the graph joins voxels closer than this, metres.
+/// For method surface: the distance, in metres, below which an edge of the graph joins two voxels.
 double adjacent_radius(double voxel);
 
-/// Each voxel enters at the concavity of the surface around it (supervoxels: at its distance to the
-/// seeds), and an edge between adjacent voxels enters with its later end.
+/// The filtration of the methods surface and supervoxels. A voxel enters at the concavity of the
+/// surface around it or, with supervoxels, at its distance to the seeds. An edge between adjacent
+/// voxels enters together with the later of its ends.
 VoxelFiltration surface_filtration(const Scene& scene, const SegmentOptions& options,
                                    const RunContext& context, StageClock& clock);
 /// The 1-skeleton of the Vietoris-Rips complex of the voxels.
 VoxelFiltration rips_filtration(const Scene& scene, const SegmentOptions& options,
                                 const RunContext& context, StageClock& clock);
 
-/// The components that a cut leaves, including small ones: for each vertex, one of the vertices of
-/// its component. Reads the method, the voxel and the tree from `scene`.
+/// The components that a cut leaves, including small ones. Reads the method, the voxel and the tree
+/// from `scene`.
 /// @param grid its centroids are the vertices. @param surface empty in method paper.
+/// @return for each vertex, one of the vertices of its component.
 std::vector<Index> components_of(const SceneTree& scene, const VoxelGrid& grid,
                                  const Surface& surface, const CutOptions& options,
                                  const RunContext& context);

@@ -73,8 +73,8 @@ std::string about_precision(const SegmentOptions& o, const Cloud& cloud, const S
       largest, step);
 }
 
-/// A pinhole camera has a field of view between a few degrees and a half circle, and its axis meets
-/// the image.
+/// Warns if no pinhole camera would have these numbers: if its field of view is only a few degrees
+/// or nearly a half circle, or if its axis does not meet the image.
 std::string about_camera(const DepthSource& depth, const Cloud& cloud) {
   const Intrinsics camera = depth.camera.scaled_to(cloud.width, cloud.height).intrinsics;
   constexpr double least = 5, most = 160;  // degrees
@@ -104,8 +104,8 @@ std::string about_plane(const Segmentation& s, const std::string& viewpoint) {
         "another frame? see {}",
         viewpoint, mark(Setting::viewpoint));
   }
-  // In scenes that are in their sensor's frame, the share behind the plane (past the edge of a
-  // table) is up to 0.4, and the hidden share is up to 0.03.
+  // If the points are in the frame of their sensor, up to 0.4 of them are behind the plane (past
+  // the edge of a table), and the plane should hide up to 0.03 of them.
   constexpr double much_hidden = 0.1, nearly_all = 0.9, some_hidden = 0.01;
   const auto [behind, hidden] = s.plane_sight;
   if (hidden < some_hidden || (hidden < much_hidden && behind < nearly_all)) return {};

@@ -20,16 +20,17 @@
 namespace ph::segment {
 namespace {
 
-/// The most that all stages together store per point: its number in four lists of remaining points,
-/// its voxel, its number, its vertex and its coordinates in the tree, the same sorted by segment,
-/// its label, and its surfaces.
+/// The most memory that all stages together need for the points. Each point needs its number in
+/// four lists of remaining points, its voxel, its number, its vertex and its coordinates in the
+/// tree, the same sorted by segment, its label, and its surfaces.
 std::size_t bytes_for_points(const CloudView& cloud) {
   constexpr std::size_t bytes_per_point = 5 * 8 + 4 + 4 + 12 + 12 + 4 + 2;
   return cloud.size() * bytes_per_point;
 }
 
-/// The most per voxel, without the pairs and the graph, which count themselves: places, normals and
-/// numbers of points, here and in the tree; the tree; the barcode.
+/// The most memory that the voxels need, without the pairs and the graph, whose memory is counted
+/// separately. Each voxel has a place, a normal and a number of points, both here and in the tree;
+/// the merge tree and the barcode need memory as well.
 std::size_t bytes_for_voxels(const VoxelGrid& grid) {
   constexpr std::size_t bytes_per_voxel = 2 * 80 + 80 + 160;
   return grid.cells.size() * bytes_per_voxel;
@@ -42,8 +43,8 @@ void mark(const std::vector<Index>& points, std::uint8_t number, std::vector<std
 }
 
 /// Removes a support below the table, such as the floor, but keeps the objects on it, which count
-/// like objects on the table. If the table should hide many points, the viewpoint is wrong, and
-/// what seems to lie below the table may lie above it: then nothing is done.
+/// like objects on the table. Does nothing if many points lie where the table should hide them: the
+/// viewpoint is then wrong, and what seems to lie below the table may lie above it.
 void clear_lower_support(const std::vector<Index>& in_range, Scene& scene, Segmentation& result) {
   constexpr double much_hidden = 0.1;  // share; in scenes in their sensor's frame, it is up to 0.03
   if (result.plane_sight.hidden >= much_hidden) return;
@@ -79,7 +80,7 @@ Scene clear_scene(const CloudView& cloud, const SegmentOptions& options, StageCl
   PlaneSearch search = find_plane(cloud, in_range, scene.margin.distance, options.plane_guess);
   if (options.method != Method::paper && options.plane_noise > 0) {
     constexpr double deviations = 4;
-    // Range of the noise.
+    // The height of the noise at the range of the plane.
     const double noise = deviations * search.noise * search.range * search.range;
     if (noise > 2 * scene.margin.distance)
       search = find_plane(cloud, in_range, noise, options.plane_guess);
@@ -105,7 +106,7 @@ Scene clear_scene(const CloudView& cloud, const SegmentOptions& options, StageCl
 void keep_points(const CloudView& cloud, const VoxelFiltration& filtration, SceneTree& scene) {
   const std::vector<Index>& points = filtration.points;
   const std::vector<std::uint32_t>& voxel_of = filtration.grid.voxel_of;
-  // The points beyond the plane, ascending, and after them the points that were won back.
+  // The points beyond the plane come first, ascending; the points that were won back follow.
   const auto beyond =
       static_cast<std::size_t>(std::ranges::is_sorted_until(points) - points.begin());
   std::vector<std::pair<Index, std::uint32_t>> won_back;
@@ -129,7 +130,7 @@ void keep_points(const CloudView& cloud, const VoxelFiltration& filtration, Scen
     std::copy_n(cloud.point(static_cast<std::size_t>(scene.points[k])), 3, &scene.xyz[3 * k]);
 }
 
-/// The data that a cut needs besides the tree and the points. `plane` is set already.
+/// Stores the data that a cut needs besides the tree and the points. `scene.plane` is set already.
 void keep_scene(const CloudView& cloud, const VoxelFiltration& filtration,
                 const SegmentOptions& options, SceneTree& scene) {
   scene.method = options.method;

@@ -157,7 +157,7 @@ class Terms {
   const CloudField* alpha_ = nullptr;                  // the alpha channel that goes with them
   bool has_colours_ = false;                           // true if fields_ contains colours
   std::vector<CloudField> fields_;
-  std::vector<const CloudField*> sources_;  // the source of each field; nullptr: colours_
+  std::vector<const CloudField*> sources_;  // the source of each field; nullptr if it is colours_
   std::size_t stride_ = 0;
 };
 

@@ -23,12 +23,13 @@ struct Overlap {
   std::size_t segment, object;
 };
 
-/// The number of things: the segments, then the surfaces found among the components.
+/// The number of things. These are the segments, followed by the surfaces that were found among the
+/// components.
 std::size_t things_in(const SceneTree& scene, const SceneCut& cut) {
   return cut.segments.size() + scene.surfaces.size() - static_cast<std::size_t>(scene.removed);
 }
 
-/// The segment or surface of a point, by its two labels.
+/// The number of the thing (a segment or a surface) at point i; empty if there is none.
 std::optional<std::uint32_t> thing_at(const SceneTree& scene, const SceneCut& cut, std::size_t i) {
   if (cut.labels[i] != 0) return cut.labels[i] - 1;
   const std::uint32_t surface = cut.surface_labels[i];
@@ -96,7 +97,8 @@ LabelTracker::Object& LabelTracker::object(std::uint32_t number) {
   return *std::ranges::lower_bound(objects_, number, {}, &Object::number);
 }
 
-/// The role of each thing from now on, as this frame and the frames before it decide.
+/// Updates the role of each thing and what it stands on. A new thing takes them from its first
+/// frame; later, a change takes effect once several frames in a row agree on it.
 void LabelTracker::settle(const SceneTree& scene, const SceneCut& cut,
                           const std::vector<std::uint32_t>& numbers) {
   constexpr int frames = 3;  // mutant: role-frames
@@ -126,7 +128,7 @@ void LabelTracker::settle(const SceneTree& scene, const SceneCut& cut,
   standings_.clear();
   for (const Segment& segment : cut.segments) {
     Standing standing = object(numbers[standings_.size()]).is;
-    // Its support may be absent from this frame.
+    // Its support may be absent from this frame; what this frame alone says is then used.
     if (standing.on.segment != 0) {
       const auto lower = std::ranges::find(numbers, standing.on.segment) - numbers.begin();
       if (lower < std::ssize(cut.segments))
@@ -162,8 +164,11 @@ std::vector<LabelTracker::Place> LabelTracker::cubes(const SceneTree& scene,
   return places;
 }
 
-/// @param places the places of things, by key. @param segments the first `segments` things get a
-/// number even without places. @return for each thing its number; 0: none.
+/// Gives a number to each thing of this frame, namely the number of the known object that it
+/// overlaps most, or a new one.
+/// @param places the places of the things, sorted by key. @param segments the number of segments,
+/// which come first among the things; each gets a number even if it has no place.
+/// @return the number of each thing; 0 if it has none.
 std::vector<std::uint32_t> LabelTracker::match(std::vector<Place> places, std::size_t things,
                                                std::size_t segments) {
   constexpr double least = 0.25;  // share of the smaller of the two
@@ -206,7 +211,8 @@ std::vector<std::uint32_t> LabelTracker::match(std::vector<Place> places, std::s
     // mutant: number-used
     if (numbers[i] == 0 && (i < segments || size_of_thing[i] > 0)) numbers[i] = next_++;
 
-  // Remembers the segments, and objects that were seen recently and are not covered.
+  // Remembers the things of this frame and the objects that were seen recently. Such an object
+  // keeps only the places that nothing covers now.
   std::vector<Object> remembered;
   for (std::size_t i = 0; i < objects_.size(); ++i) {
     Object known = objects_[i];

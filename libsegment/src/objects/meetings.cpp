@@ -41,7 +41,7 @@ std::optional<Meeting> first_meeting(const SceneTree& scene, const SceneCut& cut
   if (a == b)
     throw Error(ErrorKind::usage, fmt::format("{}: found segment {} twice, expected two segments",
                                               mark(Setting::first_meeting), a));
-  // The parts of a segment are joined from the beginning.
+  // The parts of a segment count as joined from the start.
   DisjointSets sets(cut.vertex_labels.size(), std::pmr::get_default_resource());
   const auto join = [&](std::uint32_t u, std::uint32_t v) {
     const std::uint32_t x = sets.find(u), y = sets.find(v);

@@ -13,20 +13,21 @@ struct Surface {
   Points normals;                  ///< one per voxel, see surface_normals
   VoxelPairs pairs;                ///< pairs of voxels that are near each other
   Vec3 viewpoint{};                ///< the viewpoint
-  std::optional<Plane> support{};  ///< the plane that it stands on
+  std::optional<Plane> support{};  ///< the supporting plane, if there is one
 };
 
-/// Joins the visible parts of one object. Two parts belong together
-/// - if they meet without a seam: the surface is not concave there (the inside of a bowl and its
-///   outside, over the rim);
-/// - if one surface passes through both behind something nearer that hides its middle: enough
-///   voxels at the occluder have a partner on the other side such that each lies in the tangent
-///   plane of the other and the line between them is hidden;
-/// - if one round rim surrounds both: see rims.hpp.
+/// Joins the visible parts of one object. Two parts belong together in any of these cases:
+/// - They meet without a seam, that is, the surface between them is not concave. An example is the
+///   rim between the inside and the outside of a bowl.
+/// - One surface continues behind something nearer that hides its middle. Enough voxels next to the
+///   occluder then have a partner on its other side: each of the two lies in the tangent plane of
+///   the other, and the line between them is hidden.
+/// - One round rim surrounds both, see rims.hpp.
 /// @param part_of for each voxel, one of the voxels of its part. @param min_size parts with fewer
-/// voxels stay by themselves. @return for each voxel one of the voxels of its object. O(voxels log
-/// voxels + pairs) plus the pairs of parts that are near each other. @throws Error (cancelled) as
-/// `context` asks.
+/// voxels are not joined.
+/// @return for each voxel, one of the voxels of its object. O(voxels log voxels + pairs), plus the
+/// pairs of parts that are near each other.
+/// @throws Error (cancelled) as `context` asks.
 std::vector<Index> join_parts(const VoxelGrid& grid, const Surface& surface, double voxel,
                               const std::vector<Index>& part_of, Index min_size,
                               const RunContext& context = default_context());

@@ -53,8 +53,8 @@ std::pair<T, T> range_of(std::span<const T> numbers) {
   return {std::ranges::min(low), std::ranges::max(high)};
 }
 
-/// Points that are farthest along x, x + y, y, y - x, and in the opposite directions: an octagon,
-/// counter-clockwise. @param step considers every step-th point.
+/// The points that are farthest along x, x + y, y, y - x, and in the opposite directions: the
+/// corners of an octagon, counter-clockwise. @param step only every step-th point is considered.
 template <class T>
 std::array<std::array<T, 2>, 8> octagon(std::span<const T> u, std::span<const T> v,
                                         std::size_t step) {
@@ -78,9 +78,9 @@ std::array<std::array<T, 2>, 8> octagon(std::span<const T> u, std::span<const T>
   return corners;
 }
 
-/// The numbers of the points that may be on the hull: all points except those inside the octagon
-/// (after Akl & Toussaint 1978). @param height largest coordinate off the plane, which is rounded
-/// like the coordinates on it.
+/// The numbers of the points that may be on the hull, which are all points except those inside the
+/// octagon (after Akl & Toussaint 1978). @param height the largest coordinate perpendicular to the
+/// plane; its rounding error counts as well.
 template <class T>
 std::vector<std::size_t> outside_octagon(std::span<const T> u, std::span<const T> v,
                                          std::size_t step, T height) {
@@ -88,7 +88,7 @@ std::vector<std::size_t> outside_octagon(std::span<const T> u, std::span<const T
   const auto corner = octagon(u, v, step);
   T reach = height;
   for (const auto& [x, y] : corner) reach = std::max({reach, std::abs(x), std::abs(y)});
-  // On the inner side of an edge, by more than the error of rounding.
+  // A point is on the inner side of an edge, by more than the rounding error, if a x + b y > c.
   std::array<T, 8> a, b, c;
   bool has_edges = false;
   for (std::size_t k = 0; k < corner.size(); ++k) {
@@ -116,9 +116,9 @@ std::vector<std::size_t> outside_octagon(std::span<const T> u, std::span<const T
   return result;
 }
 
-/// The places, on a plane with these axes, of all points that may be on the hull. Nearly all points
-/// are inside any octagon, as single precision can decide; most of the other points are inside the
-/// largest one.
+/// The projections, onto the plane with axes u and v, of all points that may be on the hull. An
+/// octagon of some of the points rules out nearly all points in single precision; the octagon of
+/// the remaining points then rules out most of them in double precision.
 std::vector<Vector2d> outer_places(const Coordinates& points, const Vector3d& u, const Vector3d& v,
                                    double height) {
   constexpr std::size_t step = 8;

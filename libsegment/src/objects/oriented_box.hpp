@@ -6,7 +6,7 @@
 
 namespace ph::segment {
 
-/// x, y and z of points, at least one; each in an array of its own, so that the compiler can
+/// The coordinates of one or more points. x, y and z have an array each, so that the compiler can
 /// vectorise loops over them.
 struct Coordinates {
   std::span<const float> x, y, z;
@@ -15,13 +15,14 @@ struct Coordinates {
 /// The axis-aligned box of points.
 Box box_around(const Coordinates& points);
 
-/// The box of points on a plane: the smallest rectangle around their projections onto it (one side
-/// lies along an edge of their convex hull: Freeman & Shapira 1975; found by rotating calipers,
-/// Toussaint 1983), extended to their height. O(n) plus O(h log h) for the h points near the hull.
+/// The box of points on a plane. Its base is the smallest rectangle around their projections onto
+/// the plane, and it extends to their heights. One side of this rectangle lies along an edge of the
+/// convex hull (Freeman & Shapira 1975); rotating calipers find it (Toussaint 1983). O(n) plus O(h
+/// log h) for the h points near the hull.
 /// @param up unit normal of the plane.
 OrientedBox box_on_plane(const Coordinates& points, const Vec3& up);
 
-/// The box of points along given axes. @param axes unit, orthogonal.
+/// The box of points along given axes. @param axes three orthogonal unit vectors.
 OrientedBox box_along(const Coordinates& points, const std::array<Vec3, 3>& axes);
 
 /// The principal axes of weighted places, largest spread first, right-handed; the last one points

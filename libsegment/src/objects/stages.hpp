@@ -9,15 +9,17 @@
 
 namespace ph::segment {
 
-/// For two segments, the smaller label first, the value of the first edge between them.
+/// The value of the first edge between two segments, for each pair of labels with the smaller label
+/// first.
 using Contacts = std::pmr::map<std::pair<std::uint32_t, std::uint32_t>, double>;
 
 /// Sets the neighbours of each segment, where they meet, and its persistence.
 void find_neighbours(const MergeTree& tree, const Contacts& contacts, SceneCut& cut);
 
-/// The components that are large enough, and a label for each point. Neighbours are not set.
+/// Extracts the components that are large enough, and a label for each point. Does not set the
+/// neighbours.
 /// @param component_of for each vertex, one of its component's vertices, the same for the whole
-///     component.
+/// component.
 /// @param min_size fewest voxels of a segment.
 SceneCut extract_components(const SceneTree& scene, const std::vector<Index>& component_of,
                             Index min_size);

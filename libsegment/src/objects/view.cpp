@@ -9,8 +9,9 @@ namespace ph::segment {
 
 namespace {
 
-/// The edge of the raster's cells, chosen so that the raster is not larger than the memory for the
-/// voxels allows: a few objects that lie far apart give a raster that is nearly empty.
+/// The least edge of a cell for which the raster does not have far more cells than there are
+/// voxels. Without this limit, a few objects that lie far apart would need a huge raster that is
+/// nearly empty.
 double least_cell(const Eigen::Array2d& size, std::size_t voxels) {
   constexpr double cells_a_voxel = 16, fewest = 1 << 18, most_a_side = 2048;
   const double cells = std::max(fewest, cells_a_voxel * static_cast<double>(voxels));

@@ -23,8 +23,9 @@ class View {
   /// @param nearer least difference in range, metres. @param kind_of returns the kind of a voxel.
   template <class KindOf>
   bool is_at_occluder(Voxel v, double nearer, KindOf&& kind_of) const;
-  /// How the straight line between two voxels is covered, ignoring voxels of the kind of its ends:
-  /// the number of cells with something nearer than the line, and of all cells.
+  /// Counts cells along the straight line between two voxels. Cells whose nearest voxel is of the
+  /// same kind as one of the ends are ignored; `cells` counts all others, and `hidden` those with
+  /// something nearer than the line.
   struct Cover {
     int hidden = 0, cells = 0;
   };

@@ -28,7 +28,7 @@ class Seams {
       push(both);
     }
   }
-  /// The basins at the weakest seam, if it is weaker than `least`.
+  /// The two basins with the weakest seam between them; empty if no seam is weaker than `least`.
   std::optional<std::pair<Basin, Basin>> weakest(double least) {
     for (; !queue_.empty(); queue_.pop()) {
       const auto& [strength, both, size] = queue_.top();
@@ -69,7 +69,8 @@ class Seams {
 
   std::map<Both, Values> values_;
   std::map<Basin, std::set<Basin>> neighbours_;
-  /// Ordered by strength. A seam that has grown since is recognised by its size.
+  /// Ordered by strength. If a seam has grown since its entry was made, its size differs from the
+  /// entry's.
   using Weighed = std::tuple<double, Both, std::size_t>;
   std::priority_queue<Weighed, std::vector<Weighed>, std::greater<>> queue_;
 };

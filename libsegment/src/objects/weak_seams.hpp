@@ -9,15 +9,15 @@
 namespace ph::segment {
 
 /// Joins basins that a seam separates too weakly. Persistence judges a seam by its lowest place,
-/// where noise and a true seam may look alike; over the whole length they differ. The strength of a
-/// seam is the lower quartile of the filtration along it. The weakest seam goes first, and the two
-/// basins at it count as one from then on.
+/// where noise and a true seam may look alike; over the whole length, they differ. The strength of
+/// a seam is therefore the lower quartile of the filtration along it. The basins at the weakest
+/// seam are joined first, and count as one basin from then on.
 /// @param basin_of for each voxel, one of the voxels of its basin. @param births the births of the
 /// voxels.
-/// @param pairs with a distance below `radius` have an edge, whose value is the later of the two
-///     births.
-/// @param least strength of a seam that stays. @return for each voxel one of the voxels of its
-///     final basin.
+/// @param pairs pairs of voxels; a pair with a distance below `radius` has an edge, whose value is
+/// the later of the two births.
+/// @param least the strength below which a seam is removed.
+/// @return for each voxel, one of the voxels of its final basin.
 /// @throws Error (cancelled) as `context` asks.
 std::vector<Index> join_over_weak_seams(const std::vector<Index>& basin_of,
                                         const std::vector<double>& births,

@@ -37,7 +37,7 @@ ColouredPicture with_legend(CloudPicture picture, std::span<const std::uint32_t>
   std::vector<std::size_t> order(colours.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::stable_sort(order, std::greater<>(), points_of);
-  // If only one segment would be counted as other, it is listed itself.
+  // If only one segment is left over, it is listed itself instead of being counted as other.
   const std::size_t listed = order.size() <= kMostListed + 1 ? order.size() : kMostListed;
 
   ColouredPicture result;

@@ -35,7 +35,7 @@ struct Shown {
   std::vector<std::uint32_t> segments;  ///< indices of the points in a segment
 };
 
-/// The hue of a segment, as bright as the camera saw the point.
+/// The colour of a segment, made as bright as the camera saw the point.
 std::uint32_t shaded(std::uint32_t colour, int grey) {
   std::uint32_t result = 0;
   for (const int shift : {16, 8, 0}) {
@@ -111,7 +111,7 @@ class Camera {
     if (forward_.cross(up).norm() < 1e-6) up = forward_.unitOrthogonal();
     right_ = forward_.cross(up).normalized();
     constexpr double degree = std::numbers::pi / 180;
-    // Objects on a plane keep standing upright.
+    // Turning around the normal of the plane keeps objects on it upright.
     const Vector3d upright = scene.plane ? vector(scene.plane->normal) : up;
     const Eigen::AngleAxisd around(turn.right * degree, upright.normalized());
     right_ = around * right_;
@@ -273,8 +273,9 @@ Raster averaged(const Shown& shown, const std::vector<Pixel>& pixels, int width,
   return raster;
 }
 
-/// Where to write the number of each segment: among the visible pixels with the most of the segment
-/// around them, the one nearest to its middle.
+/// For each segment, the place at which to write its number: among the visible pixels with the most
+/// room around them inside the segment, the one nearest to its middle. Empty if too few of its
+/// pixels are visible.
 std::vector<std::optional<std::array<double, 2>>> middles_of(const Shown& shown,
                                                              const std::vector<Pixel>& pixels,
                                                              int width, int height,

@@ -11,9 +11,9 @@
 namespace ph::segment {
 namespace {
 
-/// The plane, divided into squares around the foot of the viewpoint. The numbering of the squares
-/// repeats itself, but only so far away that two squares with one number merely exclude each other.
-/// Each square has 64 parts.
+/// The plane, divided into squares of 64 parts each around the foot of the viewpoint. The numbers
+/// of the squares repeat, but squares with the same number are so far apart that sharing a number
+/// can at most exclude both of them.
 class SquaredPaper {
  public:
   static constexpr std::size_t kColumns = 128, kCount = kColumns * kColumns;
@@ -33,7 +33,8 @@ class SquaredPaper {
     constexpr double middle = kColumns * kParts / 2;
     origin_ = Eigen::Array2d(middle - across.dot(eye), middle - along.dot(eye));
   }
-  /// Calls `use` for each run: in the order of an image, many points in a row lie over one square.
+  /// Calls `use` for each run. In the order of an image, many consecutive points lie over the same
+  /// square.
   template <class Use>
   void for_each_run(const std::vector<Index>& points, Use&& use) const {
     Run run{};
@@ -49,7 +50,7 @@ class SquaredPaper {
     }
     if (run.points > 0) use(run);
   }
-  /// The square of the distance of the square's centre from the foot, in units of a side.
+  /// The squared distance of a square's centre from the foot of the viewpoint, in units of a side.
   static double farness(std::size_t square) {
     const auto away = [](std::size_t column) {
       return static_cast<double>(column) - (static_cast<double>(kColumns) - 1) / 2;
@@ -63,9 +64,9 @@ class SquaredPaper {
 
   /// The column and the row of a point, counted in parts.
   std::array<std::uint32_t, 2> place_of(const float* p) const {
-    // Near this number, neighbouring doubles differ by one: the sum is rounded, and its last bits
-    // are a whole number, even a negative one. Points farther away may get any part.
-    // Subtracting `half` makes the rounding go down.
+    // Near `whole`, neighbouring doubles differ by one. Adding it therefore rounds a place to a
+    // whole number, which the last bits of the sum hold even if it is negative. Subtracting `half`
+    // first makes the rounding go down. Points too far away for this may get any part.
     constexpr double whole = 1.5 * (1ULL << 52), half = 0.5;
     const Eigen::Array2d place = steps_[0] * p[0] + steps_[1] * p[1] + steps_[2] * p[2] + origin_;
     const Eigen::Array2d shifted = (place - half) + whole;
@@ -80,7 +81,7 @@ class SquaredPaper {
   Eigen::Array2d origin_;
 };
 
-/// Chooses squares evenly by their distance.
+/// Chooses at most `most` squares, evenly by their distance from the foot of the viewpoint.
 std::vector<std::size_t> some_of(std::vector<std::size_t> squares, std::size_t most) {
   std::ranges::sort(squares, {},
                     [](std::size_t s) { return std::pair(SquaredPaper::farness(s), s); });
@@ -96,7 +97,7 @@ std::vector<std::size_t> some_of(std::vector<std::size_t> squares, std::size_t m
 std::vector<Index> free_patches(const CloudView& cloud, const std::vector<Index>& on_plane,
                                 const std::vector<Index>& beyond, const Plane& plane, double side) {
   constexpr std::size_t most = 24;  // largest number of squares, which bounds the work
-  // Parts, not points: duplicate points carry no information.
+  // Parts are counted, not points, because duplicate points carry no information.
   constexpr int most_above = 2;  // an object covers more parts, flying pixels fewer
   constexpr int fewest = 32;     // of the 64 parts of a square
   const SquaredPaper paper(cloud, plane, side);

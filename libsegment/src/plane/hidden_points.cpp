@@ -13,7 +13,8 @@ namespace {
 
 constexpr std::size_t kMostLookedAt = 20000;
 constexpr double kCell = 4;  // side, in margins, of the square of the plane that a point represents
-constexpr double kFewBehind = 0.1;  // with fewer points nothing else is examined
+// Share of the points; if fewer are behind the plane, nothing else is examined.
+constexpr double kFewBehind = 0.1;
 
 }  // namespace
 

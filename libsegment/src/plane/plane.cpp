@@ -46,8 +46,9 @@ struct Sample {
   Eigen::Vector3d operator[](std::size_t i) const { return {x[i], y[i], z[i]}; }
 };
 
-/// The kSample distinct points with the smallest hashes (or all, if there are fewer), by hash: a
-/// random sample in random order that depends on the set of points alone.
+/// The kSample distinct points with the smallest hashes (all points if there are fewer), in the
+/// order of their hashes. This is a random sample in random order that depends on the set of points
+/// alone.
 Sample draw_sample(const CloudView& cloud, const std::vector<Index>& points) {
   struct Drawn {
     std::uint64_t hash;
@@ -87,8 +88,8 @@ struct Candidate {
 };
 
 /// The sum of the squared distances of the first `count` points, each in units of `distance` and
-/// capped at one (the score of MSAC): small is good. It is only a lower bound once it reaches
-/// `enough`.
+/// capped at one (the score of MSAC); a low cost is good. A sum of `enough` or more is only a lower
+/// bound, because the summation then stops.
 double cost_of(const Candidate& plane, const Sample& sample, std::size_t count, double distance,
                double enough) {
   const double nx = plane.normal.x() / distance, ny = plane.normal.y() / distance;
@@ -118,7 +119,7 @@ std::optional<Candidate> best_hypothesis(const Sample& sample, double distance) 
     const Eigen::Vector3d a = any(), b = any(), c = any();
     const Eigen::Vector3d normal = (b - a).cross(c - a);
     const double area = normal.norm();
-    // If the triangle is thinner than the plane, its normal would be noise.
+    // A triangle that is thinner than the plane is left out, because its normal would be noise.
     if (!(area > distance * (b - a).norm()) || !(area > distance * (c - a).norm())) continue;
     const Candidate plane{normal / area, -normal.dot(a) / area};
     const double cost = cost_of(plane, sample, scored, distance, best_cost);
@@ -162,7 +163,8 @@ double share_of(const Candidate& plane, const Sample& sample, double distance) {
   return static_cast<double>(inliers) / static_cast<double>(sample.size());
 }
 
-/// The plane of the frame before, unless it has lost more than a few of its points.
+/// The plane of the previous frame; empty if there is none, or if it has lost more than a small
+/// share of its points.
 std::optional<Candidate> as_good_as_before(const std::optional<Plane>& guess, const Sample& sample,
                                            double distance) {
   constexpr double most_lost = 0.1;
@@ -172,7 +174,7 @@ std::optional<Candidate> as_good_as_before(const std::optional<Plane>& guess, co
   return share >= (1 - most_lost) * guess->share ? std::optional(plane) : std::nullopt;
 }
 
-/// 0 if there are none
+/// The median; 0 if there are no values.
 double median(std::vector<double>& values) {
   if (values.empty()) return 0;
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -180,7 +182,7 @@ double median(std::vector<double>& values) {
   return *middle;
 }
 
-/// See PlaneSearch::range. @param distance half the thickness of the plane.
+/// Computes PlaneSearch::range. @param distance half the thickness of the plane.
 double range_of(const Plane& plane, const Sample& sample, const Vec3& viewpoint, double distance) {
   const Eigen::Vector3d eye(viewpoint[0], viewpoint[1], viewpoint[2]);
   std::vector<double> ranges;
@@ -190,7 +192,8 @@ double range_of(const Plane& plane, const Sample& sample, const Vec3& viewpoint,
   return median(ranges);
 }
 
-/// See PlaneSearch::noise. @param reach points farther behind belong to another surface.
+/// Computes PlaneSearch::noise. @param reach points at least this far behind the plane belong to
+/// another surface.
 double noise_of(const Plane& plane, const Sample& sample, const Vec3& viewpoint, double reach) {
   constexpr std::size_t fewest = 30;
   constexpr double median_of_half_normal = 0.6745;  // in standard deviations
@@ -210,7 +213,8 @@ PlaneSearch find_plane(const CloudView& cloud, const std::vector<Index>& points,
                        const std::optional<Plane>& guess) {
   if (points.size() < 3) return {std::nullopt, "no plane: fewer than three points in range"};
   const Sample sample = draw_sample(cloud, points);
-  // Searches with twice the thickness: three noisy points seldom give the plane to a millimetre.
+  // Searches with twice the thickness, because a plane through three noisy points is seldom exact
+  // to a millimetre.
   std::optional<Candidate> found = as_good_as_before(guess, sample, distance);
   if (!found) found = best_hypothesis(sample, 2 * distance);
   if (!found) return {std::nullopt, "no plane: the points in range lie on a line or at one point"};

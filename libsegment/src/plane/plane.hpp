@@ -14,28 +14,30 @@ namespace ph::segment {
 struct PlaneSearch {
   std::optional<Plane> plane;
   std::string note;  ///< why there is no plane; empty if there is one
-  /// Standard deviation of the heights of its points at a range of one unit, if it grows with the
-  /// square of the range. Estimated from the points behind the plane, where no object is.
+  /// Standard deviation of the heights of the plane's points at a range of one unit, assuming that
+  /// it grows with the square of the range. It is estimated from the points behind the plane, where
+  /// there are no objects; 0 if these are too few.
   double noise = 0;
-  double range = 0;  ///< median distance of its points from the viewpoint
+  double range = 0;  ///< median distance of the plane's points from the viewpoint
 };
 
-/// The supporting plane: the plane with the most points, by RANSAC on a sample (Fischler & Bolles
-/// 1981, scored as in MSAC, Torr & Zisserman 2000) and least-squares refits. O(points) with a fixed
-/// number of hypotheses: the worst case is as fast as the best. A hash of the coordinates draws the
-/// sample, so that the plane does not depend on the order of the points, duplicates, or scaling by
-/// a power of two.
+/// Finds the supporting plane, which is the plane with the most points. Uses RANSAC on a sample
+/// (Fischler & Bolles 1981, scored as in MSAC, Torr & Zisserman 2000) and least-squares refits.
+/// O(points); the number of hypotheses is fixed, and the worst case is therefore as fast as the
+/// best. A hash of the coordinates draws the sample, so that the plane does not depend on the order
+/// of the points, on duplicates, or on scaling by a power of two.
 /// @param points indices into the cloud, none of them a hole.
-/// @param distance half the thickness of the plane, metres, > 0. @param guess a plane that is used
-/// instead of the hypotheses if nearly as many of the points lie on it as its share says.
+/// @param distance half the thickness of the plane, metres, > 0. @param guess the plane of a
+/// previous frame; it replaces the hypotheses if the share of the points on it is still nearly
+/// Plane::share.
 PlaneSearch find_plane(const CloudView& cloud, const std::vector<Index>& points, double distance,
                        const std::optional<Plane>& guess = {});
 
-/// The greatest distance of a point that still counts as part of a plane.
+/// The distance from a plane up to which a point counts as part of it.
 struct PlaneMargin {
   double distance;  ///< metres
-  /// The least margin in metres at a range of one metre: the noise of depth from disparity, which
-  /// grows with the square of the range (Khoshelham & Elberink 2012).
+  /// The least margin at a range of one metre, in metres. It allows for the noise of depth from
+  /// disparity, which grows with the square of the range (Khoshelham & Elberink 2012).
   double noise = 0;
 
   double operator()(const CloudView& cloud, const float* p) const {
@@ -59,7 +61,7 @@ Cleared remove_plane(const CloudView& cloud, const std::vector<Index>& points, c
                      const PlaneMargin& margin);
 
 /// The share of all points of a cloud, without holes, that lie behind a plane and beyond the
-/// margin; in a large cloud, a sample of the points.
+/// margin. In a large cloud, the share is taken of a sample of the points.
 double share_behind(const CloudView& cloud, const Plane& plane, const PlaneMargin& margin);
 
 /// The cosine of the angle between two planes, below zero if they face each other.

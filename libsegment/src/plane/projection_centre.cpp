@@ -12,17 +12,17 @@ namespace {
 
 constexpr double kSample = 4096;      // number of points that are used
 constexpr std::size_t kFewest = 100;  // with fewer points the result is empty
-constexpr double kNear = 0.1;         // share of the range; places as close as this count as one
+constexpr double kNear = 0.1;         // share of the range; closer places count as the same
 constexpr double kSure = 0.05;  // share of the range within which two halves of the points agree
 constexpr double kGoodPixels = 0.5;   // pixels; the error of a pinhole camera is below this
 constexpr double kTimesWorse = 5;     // a viewpoint that explains the pixels so much worse is wrong
 constexpr double kOutlierPixels = 3;  // a pixel with a larger error shows something else
 constexpr double kFewestInliers = 0.75;  // share of all sightings
-// In spreads of the points; rays that meet farther away count as parallel.
+// In units of the points' spread; rays that meet farther away than this count as parallel.
 constexpr double kFar = 20;
 
-/// The position that a pixel shows. All numbers are about one: the mean over all pixels is 0 and
-/// the mean square is 1.
+/// A pixel and the point that it shows. All numbers are normalised: over all sightings, the mean is
+/// 0 and the mean square is 1.
 struct Sighting {
   Eigen::Vector3d point;
   Eigen::Vector2d pixel;
@@ -36,8 +36,8 @@ struct Frame {
   double pixels = 0;  // pixels per unit of Sighting::pixel
 };
 
-/// The sum of v vᵀ of vectors of N numbers, plain and weighted by the terms that a pixel adds to
-/// the equations.
+/// The sums for fitting a projection by least squares: the products v vᵀ of vectors of N numbers,
+/// both plain and weighted by the terms that a pixel adds to the equations.
 template <int N>
 struct Equations {
   using Square = Eigen::Matrix<double, N, N>;
@@ -78,8 +78,8 @@ Eigen::Matrix<double, 3, N> fit(const Sightings& sightings, SeenBy&& seen_by, st
   return equations.solved();
 }
 
-/// The error of each pixel, in units of Sighting::pixel; infinite for a point whose image lies
-/// outside every image.
+/// The error of each pixel, in units of Sighting::pixel; infinite for a point whose image lies at
+/// infinity.
 template <int N, class SeenBy>
 std::vector<double> errors_of(const Eigen::Matrix<double, 3, N>& matrix, const Sightings& sightings,
                               SeenBy&& seen_by, std::size_t step = 1) {
@@ -106,7 +106,7 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-/// The sightings of points on a raster of pixels.
+/// The sightings of points on a raster of pixels; empty if there are too few.
 Sightings sightings_of(const CloudView& cloud, Frame& frame) {
   const Index columns = cloud.columns(), rows = cloud.rows();
   const auto step = std::max<Index>(
@@ -147,7 +147,7 @@ using Projection = Eigen::Matrix<double, 3, 4>;
 /// The projection with the least median of errors, among projections that are each fitted to a few
 /// points.
 Projection robust_fit(const Sightings& sightings) {
-  // If a sixth of the points are outliers, one draw of 12 in nine has none.
+  // If a sixth of the points are outliers, one in nine draws of 12 points has no outlier.
   constexpr int hypotheses = 60, points = 12;
   const std::size_t step = std::max<std::size_t>(1, sightings.size() / 1024);
   std::minstd_rand random;  // the same numbers each time
@@ -207,7 +207,7 @@ std::optional<Vec3> centre_elsewhere(const CloudView& cloud) {
   const double good = kGoodPixels / frame.pixels, outlier = kOutlierPixels / frame.pixels;
   const auto& [vx, vy, vz] = cloud.viewpoint;
   const Eigen::Vector3d viewpoint = (Eigen::Vector3d(vx, vy, vz) - frame.middle) / frame.spread;
-  // The projection from this place is a homography of directions.
+  // Seen from the viewpoint, the projection is a homography of the directions of the points.
   const auto direction = [&viewpoint](const Sighting& s) -> Eigen::Vector3d {
     return (s.point - viewpoint).normalized();
   };
