@@ -8,7 +8,7 @@
 
 namespace ph::segment {
 
-/// A plane divided into squares. @param edge of a square, metres.
+/// A plane divided into squares. @param edge the length of a square's side, metres.
 class Squares {
  public:
   Squares(const Plane& plane, double edge) : edge_(edge) {

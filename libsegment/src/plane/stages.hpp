@@ -8,14 +8,14 @@
 namespace ph::segment {
 
 /// The share of a cloud that its supporting plane should have hidden from the viewpoint. A sensor
-/// sees past the edge of a table but not through the table: a large share means that the viewpoint
-/// is wrong. Looks at some thousands of the points.
+/// sees past the edge of a table, but not through the table; a large share therefore means that the
+/// viewpoint is wrong. Looks at some thousands of the points.
 /// @param points the points in range, without holes.
 PlaneSight sight_past(const CloudView& cloud, const std::vector<Index>& points, const Plane& plane,
                       const PlaneMargin& margin);
 
-/// The points of some squares of a plane on which nothing stands, both near and far: they show the
-/// sensor's noise. Empty if there are no such squares.
+/// The points of some squares of a plane on which nothing stands, both near to and far from the
+/// viewpoint. They show the sensor's noise. Empty if there are no such squares.
 /// @param on_plane points on the plane. @param beyond points that stand on it.
 /// @param side of a square, metres. @return indices into the cloud, in the order of `on_plane`.
 std::vector<Index> free_patches(const CloudView& cloud, const std::vector<Index>& on_plane,

@@ -9,16 +9,16 @@
 
 namespace ph::segment {
 
-/// The box of a part, or of some of its voxels.
+/// A part with the box of all or some of its voxels.
 template <int Dim>
 struct PartBox {
   std::uint32_t part;
   Eigen::AlignedBox<double, Dim> box;  ///< not empty
 };
 
-/// Calls `visit(p, q)`, p > q, for all parts whose boxes are closer than `reach` allows for the
-/// pair. A sweep along x: each box is compared only with boxes that are close enough along this
-/// axis.
+/// Calls `visit(p, q)`, with p > q, for each pair of parts whose boxes are closer than both
+/// `reach(p)` and `reach(q)`. Sweeps along x: a box is compared only with boxes that are close
+/// enough along this axis.
 template <int Dim, class Reach, class Visit>
 void for_each_close_pair(std::vector<PartBox<Dim>> boxes, Reach&& reach, const RunContext& context,
                          Visit&& visit) {

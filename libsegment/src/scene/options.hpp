@@ -4,16 +4,17 @@
 
 namespace ph::segment {
 
-/// @throws Error (usage) naming the option that is out of its range; Error (bad_data) if the number
-///         of coordinates is not a multiple of three.
+/// Checks a cloud and the options for it. @throws Error (usage) naming the option that is out of
+/// its range; Error (bad_data) if the number of coordinates is not a multiple of three.
 void validate(const CloudView& cloud, const SegmentOptions& options);
-/// @throws Error (bad_data) unless the arrays of the scene have the lengths that it states, and all
-///         indices in them exist.
+/// Checks a scene. @throws Error (bad_data) unless its arrays have the lengths that it states, and
+/// all indices in them exist.
 void validate(const SceneTree& scene);
-/// @throws Error (bad_data) unless the cut has the points and vertices of the scene.
+/// Checks a cut of a scene. @throws Error (bad_data) unless it has the points and vertices of the
+/// scene.
 void validate(const SceneTree& scene, const SceneCut& cut);
-/// @throws Error (usage) naming the option that is out of its range for this tree; Error (bad_data)
-///         as above.
+/// Checks a scene and options for cutting it. @throws Error (usage) naming the option that is out
+/// of its range for this tree; Error (bad_data) like validate(scene).
 void validate(const SceneTree& scene, const CutOptions& options);
 
 }  // namespace ph::segment

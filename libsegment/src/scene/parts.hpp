@@ -17,7 +17,8 @@ struct Parts {
   std::size_t count() const { return example.size(); }
 };
 
-/// @param part_of for each voxel, one of the voxels of its part.
+/// Numbers the parts of at least `min_size` voxels. @param part_of for each voxel, one of the
+/// voxels of its part.
 inline Parts number_parts(const std::vector<Index>& part_of, Index min_size) {
   std::vector<Index> sizes(part_of.size());
   for (const Index p : part_of) ++sizes[static_cast<std::size_t>(p)];

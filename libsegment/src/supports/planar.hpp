@@ -11,8 +11,9 @@ namespace ph::segment {
 double flatness(double square_of_range);
 
 /// The plane of a flat object's voxels, facing the viewpoint; empty if they do not lie on a plane.
-/// Least squares, starting from the mean of the normals.
-/// @param voxels some of the vertices. @return the plane; its share is the share of these voxels.
+/// It is fitted by least squares, starting from the mean of the normals.
+/// @param voxels some of the vertices. @return the plane, with the share of these voxels that lie
+/// on it.
 std::optional<Plane> plane_through(const Points& centroids, const Points& normals,
                                    std::span<const Index> voxels, const Vec3& viewpoint);
 

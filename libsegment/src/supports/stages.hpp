@@ -14,23 +14,24 @@ namespace ph::segment {
 struct LowerSupport {
   Plane plane;
   PlaneMargin margin;
-  std::vector<Index> points;  ///< below the upper support: all that can stand on this one
+  std::vector<Index> points;  ///< points below the upper support; only they can stand on this one
 };
 
-/// The largest plane below a support if it is parallel to the support and nothing of the whole
-/// frame is visible below it.
-/// @param points the points in range, without holes. @param least_margin of the plane that is
-/// found, as PlaneMargin::noise.
+/// The largest plane below a support. Empty unless it is parallel to the support and hardly any
+/// point of the whole cloud lies below it.
+/// @param points the points in range, without holes. @param least_margin the least
+/// PlaneMargin::noise of the plane that is found.
 std::optional<LowerSupport> find_lower_support(const CloudView& cloud,
                                                const std::vector<Index>& points, const Plane& upper,
                                                double least_margin);
 
-/// Determines for each segment what it stands on, and whether it is an object or may be one. A
-/// segment stands on a support if it reaches it: some of its points lie over the support and as
-/// low. Otherwise it stands on the segment that it touches most at its own lower end, unless this
-/// is also the lower end of the other segment. A segment that stands on nothing visible is an
-/// object as well, unless the border of an organised cloud cuts it off: then its role is unknown.
-/// @param pairs of voxels that are near each other. Does nothing if there is no support.
+/// Determines what each segment stands on, and whether it is an object or may be one. A segment
+/// stands on a support if it reaches down to it, that is, if some of its points are as low as the
+/// support. Otherwise it stands on the segment that it touches most, if they touch at its own lower
+/// end but not at the lower end of the other segment. A segment that stands on nothing visible is
+/// an object as well, unless the border of an organised cloud cuts it off: its role is then
+/// unknown. Does nothing if there is no support.
+/// @param pairs pairs of voxels that are near each other.
 void find_what_it_stands_on(const SceneTree& scene, std::span<const VoxelPair> pairs,
                             SceneCut& cut);
 

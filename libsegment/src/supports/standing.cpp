@@ -11,8 +11,8 @@
 namespace ph::segment {
 namespace {
 
-/// The number of points of each segment that lie as low as a support: no farther away than two
-/// voxels plus its least margin, which grows with the square of the range.
+/// The number of points of each segment that are as low as a support. These are at most two voxels
+/// plus a margin away from it; the margin grows with the square of the range.
 std::vector<Index> points_at(const SceneTree& scene, const SceneCut& cut, const Plane& support) {
   constexpr double margin = 0.005, voxels = 2;  // metres, at a range of one metre
   const auto& [vx, vy, vz] = scene.viewpoint;
@@ -27,8 +27,8 @@ std::vector<Index> points_at(const SceneTree& scene, const SceneCut& cut, const 
   return count;
 }
 
-/// For each vertex: the number of the support that was found among the components and on which it
-/// lies.
+/// For each vertex: the number of the support on which it lies, if that support was found among the
+/// components (not removed); otherwise 0.
 std::vector<std::uint8_t> boards_of(const SceneTree& scene, const SceneCut& cut) {
   std::vector<std::uint8_t> boards(scene.cells.size());
   for (std::size_t k = 0; k < scene.points.size(); ++k) {
@@ -60,7 +60,8 @@ std::vector<double> lower_ends(const SceneCut& cut, const std::vector<double>& h
 }
 
 /// The number of points of each segment that lie at the border of the image, where some sensors see
-/// nothing: within a sixty-fourth of its columns. Zero for an unorganised cloud.
+/// nothing. The border is a sixty-fourth of the image's columns wide. Zero for an unorganised
+/// cloud.
 std::vector<Index> points_at_border(const SceneTree& scene, const SceneCut& cut) {
   constexpr Index share = 64, least = 2;  // pixels
   std::vector<Index> count(cut.segments.size() + 1);

@@ -13,7 +13,7 @@
 namespace ph::segment {
 namespace {
 
-/// The sum of some vectors and of their squares.
+/// The sum of some vectors and the sums of the products of their coordinates.
 struct Moments {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
@@ -36,13 +36,15 @@ struct Moments {
   }
 };
 
-/// Scatter matrices of some voxels, side by side so that the compiler can vectorise over them.
+/// Scatter matrices of several voxels are processed side by side, so that the compiler can
+/// vectorise over them.
 constexpr std::size_t kLanes = 8;
 using Lanes = std::array<double, kLanes>;
 
-/// The smallest eigenvalues of positive semi-definite matrices of trace one, given the sum of their
-/// principal minors and the determinant. On the left of its smallest root the characteristic
-/// polynomial is concave: Newton's method climbs from zero to that root and never passes it.
+/// The smallest eigenvalues of positive semi-definite matrices of trace one, given the sum of the
+/// principal minors of order two and the determinant of each matrix. To the left of its smallest
+/// root, the characteristic polynomial is concave; Newton's method therefore climbs from zero to
+/// that root and never passes it.
 Lanes smallest_eigenvalues(const Lanes& minors, const Lanes& determinants) {
   constexpr int most_steps = 20;  // a double root takes many steps, and is then exact enough
   constexpr double least_step = 1e-15;
@@ -71,12 +73,13 @@ double principal_minors(const Eigen::Matrix3d& a) {
          a(1, 1) * a(2, 2) - a(1, 2) * a(1, 2);
 }
 
-/// The direction in which vectors with this scatter spread least, unit length; any such direction
-/// if all vectors lie on a line.
-/// @param a the scatter, of trace one. @param eigenvalue the smallest one.
+/// The unit vector along which vectors with this scatter spread least; if they all lie on a line,
+/// any unit vector orthogonal to it.
+/// @param a the scatter matrix, of trace one. @param eigenvalue its smallest eigenvalue.
 Eigen::Vector3d direction_of_least_spread(const Eigen::Matrix3d& a, double eigenvalue) {
   const Eigen::Matrix3d rest = a - eigenvalue * Eigen::Matrix3d::Identity();
-  // Orthogonal to all rows: the longest of the cross products has the least rounding error.
+  // The direction is orthogonal to all rows of `rest`. Of the cross products of its columns, the
+  // longest has the least rounding error.
   Eigen::Vector3d best = rest.col(0).cross(rest.col(1));
   for (const Eigen::Vector3d& other : {Eigen::Vector3d(rest.col(0).cross(rest.col(2))),
                                        Eigen::Vector3d(rest.col(1).cross(rest.col(2)))})

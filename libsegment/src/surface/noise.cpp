@@ -39,7 +39,8 @@ double ConcavityNoise::at(double range) const {
   if (next == measured_.begin()) {
     noise = next->concavity;
   } else if (next == measured_.end()) {
-    const NoiseAt& last = measured_.back();  // from there on it grows like the noise of depth
+    // Beyond the last range, the noise grows like the noise of depth.
+    const NoiseAt& last = measured_.back();
     noise = last.concavity * (range / last.range) * (range / last.range);  // mutant: noise-range
   } else {
     const NoiseAt& before = *(next - 1);

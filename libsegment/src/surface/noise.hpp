@@ -11,12 +11,12 @@ namespace ph::segment {
 class ConcavityNoise {
  public:
   ConcavityNoise() = default;
-  /// @param ranges distances from the viewpoint of places where the surface is flat. @param values
-  /// the concavity measured there.
+  /// @param ranges distances from the viewpoint to places where the surface is flat.
+  /// @param values the concavity measured at each of these places.
   ConcavityNoise(const std::vector<double>& ranges, const std::vector<double>& values);
 
-  /// The noise at a range; a typical value if nothing is known. It is never so small that details
-  /// of an object exceed it many times, nor so large that no seam stands out.
+  /// The noise at a range; a typical value if nothing was measured. It is never so small that
+  /// details of an object exceed it many times, nor so large that no seam stands out.
   double at(double range) const;
   /// The measured values, nearest first.
   const std::vector<NoiseAt>& measured() const { return measured_; }

@@ -58,8 +58,8 @@ class Cubes {
   template <class Visit>
   void for_each_near(std::uint32_t i, double radius, Visit&& visit) const {
     const double reach = std::ceil(radius / edge_);
-    // Visits all points if the search would look at as many cubes as exist; an infinite radius also
-    // makes the comparison false.
+    // Visits all points if the search would look at as many cubes as exist. An infinite radius
+    // makes the comparison false, and all points are then visited as well.
     if (!(std::pow(2 * reach + 1, 2) < static_cast<double>(cubes_.size()))) {
       for (std::uint32_t k = 0; k < points_.rows(); ++k) visit(k);
       return;
@@ -90,9 +90,10 @@ class Cubes {
   std::map<Cube, std::vector<std::uint32_t>> cubes_;
 };
 
-/// The greedy permutation of the points (Gonzalez 1985) until each has a seed within `spacing`:
-/// each step takes the first of the points farthest from all seeds. A new seed can become the
-/// nearest seed only of points that are nearer to it than it was to its own nearest seed.
+/// Chooses seeds by the greedy permutation of the points (Gonzalez 1985) until each point has a
+/// seed within `spacing`. Each step takes the point that is farthest from all seeds; if there are
+/// several, the first of them. The new seed can become the nearest seed only of points that are
+/// nearer to it than it was to its own nearest seed.
 std::vector<std::uint32_t> spread_seeds(const Points& points, double spacing,
                                         const RunContext& context) {
   const auto size = static_cast<std::size_t>(points.rows());

@@ -8,14 +8,14 @@
 
 namespace ph::segment {
 
-/// For each voxel the distance, along the surface, from the nearest of some evenly spread seeds: a
-/// greedy permutation of the voxels, continued until each voxel has a seed within `spacing`
-/// (metres, > 0), and one seed for each connected piece without one. A step through a seam counts
-/// for more than its length, by a factor that grows with the concavity, so that the distance has a
-/// ridge where two objects meet. The cost stays well below voxels times seeds: once the seeds are
-/// dense, a new one is compared only with voxels near it.
-/// @param edges the edges between adjacent voxels; their values are their lengths. @param concavity
-///     the concavity at each voxel.
+/// For each voxel, the distance along the surface from the nearest of some evenly spread seeds. The
+/// seeds are a greedy permutation of the voxels, continued until each voxel has a seed within
+/// `spacing` (metres, > 0). Each connected piece without a seed gets one as well. A step through a
+/// seam counts for more than its length, by a factor that grows with the concavity; the distance
+/// therefore has a ridge where two objects meet. The cost stays well below voxels times seeds,
+/// because once the seeds are dense, a new seed is compared only with voxels near it.
+/// @param edges the edges between adjacent voxels; their values are their lengths.
+/// @param concavity the concavity at each voxel.
 std::vector<double> distance_to_seeds(const Points& centroids,
                                       const std::vector<WeightedEdge>& edges,
                                       const std::vector<double>& concavity, double spacing,

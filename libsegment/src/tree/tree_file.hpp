@@ -10,19 +10,20 @@
 
 namespace ph::segment {
 
-// A stored tree: a header of little-endian 8-byte numbers, int64 or float64; the arrays; a
-// checksum. Values that follow from the rest (elder and younger of a merge, sizes) are not stored
-// and therefore cannot contradict it.
+// A stored tree consists of a header of little-endian 8-byte numbers (int64 or float64), the
+// arrays, and a checksum. Values that follow from others (the elder and the younger side of a
+// merge, sizes) are not stored and therefore cannot contradict them.
 inline constexpr std::string_view kTreeMagic = "ph-tree\n";
 inline constexpr std::int64_t kTreeVersion = 2;
 inline constexpr std::size_t kTreeWord = 8, kTreeHeader = 29 * kTreeWord;
 inline constexpr std::size_t kTreeSum = 4;
-// The entry of a point without a vertex is this number, less the number of the removed surface on
-// which the point lies.
+// The entry of a point without a vertex is this number minus the number of the removed surface on
+// which the point lies (0 if it lies on none).
 inline constexpr std::uint32_t kTreeNoVertex = UINT32_MAX;
 inline constexpr std::size_t kTreeSurface = 6 * kTreeWord, kTreeNoise = 2 * kTreeWord;
 
-/// Calls `use(std::optional vertex, point)` for each point of the cloud.
+/// Calls `use(vertex, point)` for each point of the cloud; the vertex is empty if the point has
+/// none.
 template <class Use>
 void for_each_point(const SceneTree& scene, Use&& use) {
   std::size_t next = 0;
@@ -32,7 +33,7 @@ void for_each_point(const SceneTree& scene, Use&& use) {
   }
 }
 
-/// CRC-32 of all bytes before it.
+/// The checksum of a stored tree: the CRC-32 of all bytes before it.
 std::uint32_t tree_sum(std::string_view bytes);
 
 }  // namespace ph::segment

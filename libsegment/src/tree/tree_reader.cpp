@@ -20,8 +20,8 @@ namespace {
 constexpr std::int64_t kMost = std::int64_t{1} << 32;  // points and vertices have 32-bit numbers
 constexpr std::size_t kWord = kTreeWord, kHeader = kTreeHeader, kSum = kTreeSum;
 
-/// The largest number of edges of a graph with `vertices` vertices, at most 2^32 - 2; the sum of
-/// both numbers fits into 63 bits.
+/// The largest number of edges of a graph. `vertices` is at most 2^32 - 2; the sum of both numbers
+/// therefore fits into 63 bits.
 std::int64_t most_edges(std::int64_t vertices) {
   const auto n = static_cast<std::uint64_t>(vertices);
   return n == 0 ? 0 : static_cast<std::int64_t>(n * (n - 1) / 2);
@@ -143,15 +143,16 @@ class TreeReader {
     }
   }
 
-  /// Checked before any allocation. The factors are below 2^33, and every product of a size and a
-  /// number of points is checked before it is used in another one.
+  /// Checks the size of the file and its checksum before anything is allocated. No product
+  /// overflows: the factors are below 2^33, and the product of width and height is checked before
+  /// it is multiplied again.
   void require_size_and_sum() {
     const auto cloud = checked_product(static_cast<std::size_t>(scene_.width),
                                        static_cast<std::size_t>(scene_.height));
     at_ = 3 * kWord;
     if (!cloud || *cloud > static_cast<std::size_t>(kMost))
       fail("width times height", "more than 2^32", "at most 2^32");
-    const std::size_t vectors = scene_.method != Method::paper ? 3 : 2;  // normals
+    const std::size_t vectors = scene_.method != Method::paper ? 3 : 2;  // with normals: 3
     const std::size_t expected = kHeader + static_cast<std::size_t>(surfaces_) * kTreeSurface +
                                  static_cast<std::size_t>(noise_) * kTreeNoise +
                                  static_cast<std::size_t>(vertices_) * (3 * vectors + 2) * kWord +
@@ -181,7 +182,7 @@ class TreeReader {
           fail("corner of a voxel", fmt::format("{}", c),
                fmt::format("at most {}", kMostExactCell));
       }
-      // z slowest
+      // In the order of the grid, z varies slowest.
       if (v > 0 &&
           !std::ranges::lexicographical_compare(
               scene_.cells[v - 1].rbegin(), scene_.cells[v - 1].rend(), cell.rbegin(), cell.rend()))
@@ -308,10 +309,10 @@ class TreeReader {
     return std::ranges::any_of(
         removed, [&](const SceneSurface& s) { return is_in_strip(s.plane, point, centroid(v)); });
   }
-  /// True if the point is in the strip of the plane below a voxel. The tree does not have the
-  /// margin; all that is known is that the voxel lies beyond it.
+  /// True if the point may be in the strip of the plane below a voxel. The margin of the plane is
+  /// not stored in the tree; it is only known that the voxel lies beyond the margin.
   bool is_in_strip(const Plane& plane, const Vec3& point, const Vec3& of_voxel) const {
-    constexpr double aside = 3, up = 4;  // voxels; roughly as high as the voxel
+    constexpr double aside = 3, up = 4;  // in voxels; as a multiple of the voxel's height
     const double height = plane.signed_distance(point[0], point[1], point[2]);
     const double voxel_height = plane.signed_distance(of_voxel[0], of_voxel[1], of_voxel[2]);
     if (!(height > 0 && height <= up * (voxel_height + scene_.voxel))) return false;
@@ -321,7 +322,8 @@ class TreeReader {
     return square <= std::pow(aside * scene_.voxel, 2);
   }
 
-  /// True if the point may belong to the bottom of the vessel whose lowest voxel this is.
+  /// True if the point may belong to the bottom of a vessel, and v is the lowest voxel of this
+  /// vessel.
   bool may_be_bottom(const Vec3& point, std::uint32_t v) const {
     // mutant: opening-supervoxels
     return scene_.plane && scene_.method == Method::surface &&

@@ -7,7 +7,7 @@
 
 namespace ph::segment {
 
-/// Round shapes, seen from above. Lengths are in metres.
+/// A round shape, seen from above. Lengths are in metres.
 struct Circle {
   Eigen::Vector2d centre;
   double radius = 0;  ///< arbitrary, or NaN, for points on a line
@@ -17,8 +17,9 @@ struct Circle {
 inline constexpr std::size_t kSectors = 36;
 using Sectors = std::bitset<kSectors>;
 
-/// Least squares of |p|² = 2 c·p + (r² - |c|²) (I. Kåsa, A circle fitting procedure and its error
-/// analysis, 1976). Each set of points has the same weight. @pre no set is empty.
+/// Fits a circle by least squares of |p|² = 2 c·p + (r² - |c|²) (I. Kåsa, A circle fitting
+/// procedure and its error analysis, 1976). Each set of points has the same weight. @pre no set is
+/// empty.
 Circle fit_circle(std::initializer_list<const std::vector<Eigen::Vector2d>*> sets);
 
 /// The root of the mean of the squares of the distances from a circle.

@@ -26,7 +26,7 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-/// A circle, and the points without outliers.
+/// Fits a circle to the points, and removes outliers from `points`.
 Circle fit_without_outliers(std::vector<Eigen::Vector2d>& points, double voxel) {
   constexpr int times = 3;  // mutant: opening-handles
   constexpr double medians = 2;
@@ -44,8 +44,9 @@ Circle fit_without_outliers(std::vector<Eigen::Vector2d>& points, double voxel) 
   return circle;
 }
 
-/// @param object the voxels of an object: x and y along the plane, z above it. @param numbers the
-///     numbers of these voxels in the grid.
+/// The opening of an object; empty if its upper end is not a round rim.
+/// @param object the voxels of the object: x and y along the plane, z above it. @param numbers the
+/// numbers of these voxels in the grid.
 std::optional<Opening> opening_of(const std::vector<Eigen::Vector3d>& object,
                                   const std::vector<std::uint32_t>& numbers, double voxel) {
   constexpr std::size_t fewest = 20;                  // fewest voxels of a rim
@@ -91,7 +92,7 @@ void assign_points_in_openings(const CloudView& cloud, const std::vector<Index>&
                                const Plane& plane, double voxel,
                                const std::vector<Index>& object_of, Index min_size,
                                std::vector<Index>& points, VoxelGrid& grid) {
-  // Slightly less than the radius, because the points of a rim are blurred.
+  // A share of the radius; it is slightly less than 1, because the points of a rim are blurred.
   constexpr double of_radius = 0.97;
   const Eigen::Matrix3d turn = upright(plane.normal);
   const auto above = [&](const Eigen::Vector3d& p) -> Eigen::Vector3d {
@@ -124,7 +125,7 @@ void assign_points_in_openings(const CloudView& cloud, const std::vector<Index>&
     const Eigen::Vector3d p = above({q[0], q[1], q[2]});
     for (const Opening& opening : openings) {
       if (p.z() >= opening.height) continue;
-      const auto from_axis = [&](double height) {  // where the point's ray passes the rim
+      const auto from_axis = [&](double height) {  // where the point's ray is at this height
         const double t = (eye.z() - height) / (eye.z() - p.z());
         return ((eye + t * (p - eye)).head<2>() - opening.circle.centre).norm();
       };

@@ -19,7 +19,8 @@ constexpr std::size_t kFewestOfEach = 9;  // sectors
 
 /// The sectors of the circle in which a rim has points; empty if the rim is not on the circle.
 std::optional<Sectors> arc(const Circle& circle, const UpperEnd& rim, double tolerance) {
-  // Not "larger than": a circle through points on a line is NaN.
+  // The comparison is not written as "larger than", because a circle through points on a line is
+  // NaN.
   if (!(deviation(circle, rim.points) <= tolerance)) return std::nullopt;
   return sectors_of(circle, rim.points);
 }
@@ -56,7 +57,8 @@ void join_around_rims(const Points& centroids, double voxel, const Vec3& up, con
     boxes.push_back({p, {}});
     for (const Eigen::Vector2d& point : rims[p].points) boxes.back().box.extend(point);
   }
-  // An arc of so many sectors is longer than a third of the diameter: no rim is farther from it.
+  // An arc of so many sectors is longer than a third of the circle's diameter; the other rim on the
+  // circle is therefore never farther away than this.
   const auto reach = [](const PartBox<2>& b) { return 4 * b.box.diagonal().norm(); };
   for_each_close_pair(boxes, reach, context, [&](std::uint32_t p, std::uint32_t q) {
     if (share_a_rim(rims[p], rims[q], voxel)) join(p, q);

@@ -11,28 +11,31 @@
 namespace ph::segment {
 
 /// True if a point may have been won back for a voxel through an opening. All such points are near
-/// the voxel, lower than it, and not far below the plane, because a shiny bottom appears too deep.
+/// the voxel and not higher than it. They may be a little below the plane, because a shiny bottom
+/// appears too deep.
 bool may_be_in_opening(const Plane& plane, const Vec3& point, const Vec3& voxel);
 
-/// Wins back the bottoms of round vessels (bowls, cups, pots), which lie so low that they were
-/// taken for the plane: points that the sensor sees through the opening of a rim are inside the
-/// vessel. A rim is the upper end of an object if this end lies on a circle, covers most of it, and
-/// leaves its middle free. In other cuts, the points that were won back stay with their voxel;
-/// openings are not searched for again.
-/// @param object_of each voxel: one of the voxels of its object. @param min_size fewest voxels of
-/// an object. @param in_range all points, some of which may be inside. @param points the points in
-/// the grid; the points of bottoms are appended, and `grid.voxel_of` gives each of them the
-/// object's lowest voxel that is nearest to the axis. O(voxels + points near the plane, for each
-/// rim).
+/// Wins back the bottoms of round vessels (bowls, cups, pots), which are so low that they were
+/// taken for the plane. Points that the sensor sees through the opening of a rim are inside the
+/// vessel. The upper end of an object is a rim if it lies on a circle, covers most of the circle,
+/// and leaves the middle free. In other cuts, the points that were won back stay with their voxel,
+/// and no openings are sought.
+/// @param object_of for each voxel, one of the voxels of its object. @param min_size fewest voxels
+/// of an object.
+/// @param in_range all points in range, some of which may be inside a vessel.
+/// @param points the points in the grid. The points of the bottoms are appended; in
+/// `grid.voxel_of`, each gets the lowest voxel of the object near the axis of the opening. O(voxels
+/// + points near the plane, for each rim).
 void assign_points_in_openings(const CloudView& cloud, const std::vector<Index>& in_range,
                                const Plane& plane, double voxel,
                                const std::vector<Index>& object_of, Index min_size,
                                std::vector<Index>& points, VoxelGrid& grid);
 
 /// Finds the inside and the outside of round vessels (bowls, cups, pots) whose rims are too thin to
-/// show a surface that both share: the upper ends of both parts are at the same height and lie on
-/// one circle, each on its own arc, and together the arcs cover nearly the whole circle.
-/// @param up unit normal of the support. @param join is called with the numbers of two parts.
+/// show a surface that joins the two. The upper ends of both parts are then at the same height and
+/// lie on one circle. Each part has its own arc, and the two arcs together cover nearly the whole
+/// circle.
+/// @param up unit normal of the support. @param join is called with the numbers of two such parts.
 /// @throws Error (cancelled) as `context` asks.
 void join_around_rims(const Points& centroids, double voxel, const Vec3& up, const Parts& parts,
                       const std::function<void(std::uint32_t, std::uint32_t)>& join,

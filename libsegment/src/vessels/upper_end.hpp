@@ -12,11 +12,13 @@ Eigen::Matrix3d upright(const Vec3& up);
 
 /// The upper end of an object, seen from above.
 struct UpperEnd {
-  double top = 0;                       ///< its height; one point in fifty may be higher
+  /// The height of the upper end; one point in fifty may be higher.
+  double top = 0;
   std::vector<Eigen::Vector2d> points;  ///< x, y of the points less than a depth below the top
 };
 
-/// @param points upright, metres, at least one. @param depth metres.
+/// Finds the upper end of an object. @param points its points, upright, in metres; at least one.
+/// @param depth of the upper end, metres.
 UpperEnd upper_end_of(const std::vector<Eigen::Vector3d>& points, double depth);
 
 }  // namespace ph::segment

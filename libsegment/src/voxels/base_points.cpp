@@ -12,9 +12,9 @@
 namespace ph::segment {
 namespace {
 
-/// The plane divided into squares. Columns and rows are numbered in order of appearance, because
-/// the coordinates of a square may be any whole numbers, and no two squares may share a name,
-/// however far apart.
+/// The plane divided into squares. The coordinates of a square may be any whole numbers, and no two
+/// squares may have the same name, however far apart. Columns and rows are therefore numbered in
+/// order of appearance.
 class Squares {
  public:
   Squares(const Plane& plane, double side)
@@ -48,7 +48,7 @@ class Squares {
   Numbers columns_, rows_;
 };
 
-/// The lowest point over a square.
+/// The lowest point beyond the plane over a square, and its voxel.
 struct Wall {
   double height = kInfinity;
   std::uint32_t voxel = 0;
@@ -59,7 +59,7 @@ struct Wall {
 void assign_base_points(const CloudView& cloud, const std::vector<Index>& strip, const Plane& plane,
                         const PlaneMargin& margin, double side, std::vector<Index>& points,
                         VoxelGrid& grid) {
-  constexpr double squares_up = 2;  // how far beyond the margin a wall may begin
+  constexpr double squares_up = 2;  // how far beyond the margin a wall may begin, in squares
   const auto point = [&](Index i) { return cloud.point(static_cast<std::size_t>(i)); };
   Squares square(plane, side);
   FlatMap<Wall> walls(std::pmr::get_default_resource());

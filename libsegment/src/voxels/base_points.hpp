@@ -7,10 +7,11 @@
 
 namespace ph::segment {
 
-/// Wins back the base of each object, the strip that was taken for the plane because it lies within
-/// its margin. A point of the strip joins the voxel of the lowest point beyond the margin over the
-/// same small square of the plane, if that point is just beyond the margin. A wall has such points;
-/// the free plane beside it has none. Centroids and counts of the voxels do not change.
+/// Wins back the base of each object, that is, the strip of it that lies within the margin of the
+/// plane and was therefore taken for the plane. If, over a small square of the plane, the lowest
+/// point beyond the margin is just beyond it, the points of the strip over the same square join
+/// this point's voxel. A wall has such a point; the free plane beside it has none. Centroids and
+/// counts of the voxels do not change.
 /// @param strip the points within the margin. @param side of a square, metres.
 /// @param points the points in the grid, which lie beyond the margin or behind the plane; the
 /// points of the bases are appended.

@@ -22,7 +22,7 @@ class Levels {
     for (int k = 0; k < steps; ++k) values_.push_back(k * distance / steps);
     values_.push_back(distance);
   }
-  // 0 if there are too many levels, or if lengths are exact.
+  // The number of levels; 0 if there are too many, or if lengths are exact.
   std::size_t size() const { return values_.size(); }
   double operator[](std::size_t k) const { return values_[k]; }
   /// The first level that is not below a length.

@@ -8,8 +8,9 @@ namespace ph::segment {
 /// The 1-skeleton of the Vietoris-Rips filtration of points in space, which is all that H0 needs
 /// (Section V.A of the paper). Vertices enter at 0, edges at their length. The filtration equals
 /// that of ph::Rips, without the data for higher dimensions.
-/// @param points one point of R^3 per row, finite. @param distance longest edge, >= 0, inclusive.
-/// @param steps number of levels up to `distance` to which lengths are rounded up; 0: exact
+/// @param points one point of R^3 per row, finite. @param distance the longest edge, >= 0,
+/// inclusive.
+/// @param steps lengths are rounded up to this number of levels up to `distance`; 0 for exact
 /// lengths. O(points log points + edges) for voxels not much smaller than `distance`.
 /// @throws Error (resource) beyond 2^32 - 2 cells or the memory limit.
 FilteredGraph rips_graph(const Points& points, double distance, int steps,

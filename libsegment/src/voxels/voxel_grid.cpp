@@ -16,8 +16,8 @@
 namespace ph::segment {
 namespace {
 
-// Offsets inside a voxel are counted in units of voxel * 2^-32: two picometres at one centimetre;
-// the sum of two billion points in one voxel still fits into 63 bits.
+// Offsets inside a voxel are counted in units of voxel * 2^-32, which are two picometres in a voxel
+// of one centimetre. The sum of two billion offsets still fits into 63 bits.
 constexpr double kUnits = 4294967296.0;
 
 /// One occupied voxel. Grid coordinates are whole numbers stored as doubles: they cannot overflow.
@@ -25,8 +25,8 @@ struct Voxel {
   double x, y, z;
   std::int64_t sum_x = 0, sum_y = 0, sum_z = 0;
   Index count = 0;
-  /// Compares the bits of all three at once, which works because no zero is negative: a branch for
-  /// each would be unpredictable.
+  /// Compares the bits of all three coordinates at once, which works because no zero is negative. A
+  /// branch for each coordinate would be unpredictable.
   bool is_at(double cx, double cy, double cz) const {
     const auto difference = [](double a, double b) {
       return std::bit_cast<std::uint64_t>(a) ^ std::bit_cast<std::uint64_t>(b);
@@ -35,9 +35,9 @@ struct Voxel {
   }
 };
 
-/// Open addressing with linear probing; the load stays below a quarter, because the branch at the
-/// second probe is unpredictable. A FlatMap would store the key, three doubles that the voxel
-/// already has; here a slot is 4 bytes.
+/// A hash table with open addressing and linear probing. Its load stays below a quarter, because
+/// the branch at the second probe is unpredictable. A FlatMap would also store the key, which is
+/// three doubles that the voxel already has; a slot of this table takes 4 bytes.
 class VoxelTable {
  public:
   VoxelTable() : slots_(kFirstCapacity, kEmpty) {}
@@ -85,7 +85,7 @@ class VoxelTable {
 
 /// The grid coordinate of a number in units of voxels. Adding zero gives -0 and +0 the same bits.
 double cell_of(double units) {
-  constexpr double huge = 1ULL << 52;  // numbers from here on have no fraction
+  constexpr double huge = 1ULL << 52;  // doubles of at least this size have no fraction
   if (!(std::abs(units) < huge)) return std::floor(units) + 0.0;
   // A call of floor for each coordinate would take a third of the grid's time.
   const auto whole = static_cast<double>(static_cast<std::int64_t>(units));
@@ -108,8 +108,8 @@ std::vector<std::uint32_t> in_order_of_grid(const std::vector<Voxel>& voxels) {
     low[axis] = least.*member;
     size[axis++] = most.*member - least.*member + 1;
   }
-  // Each cell of the box around all voxels has a whole number. Counted from 2^52 on, its bits equal
-  // those of the double, which the radix sort needs.
+  // The cells of the box around all voxels are numbered. With 2^52 added, the last bits of the
+  // double are this number, as the radix sort needs.
   constexpr double whole = 1ULL << 52;
   if (size[0] * size[1] * size[2] < whole) {
     std::vector<double> place;
@@ -148,8 +148,8 @@ VoxelGrid voxel_grid(const CloudView& cloud, const std::vector<Index>& points, d
   grid.voxel_of.resize(points.size());
   VoxelTable table;
   std::uint32_t number = 0;  // neighbours in the list are often neighbours in space
-  // Works in batches: the cells of the next points are computed before the unpredictable lookup of
-  // the last one is resolved.
+  // Works in batches: the cells of the next points are computed while the unpredictable lookup of
+  // the last one is still unresolved.
   std::array<Located, 64> located;
   for (std::size_t first = 0; first < points.size(); first += located.size()) {
     const std::size_t count = std::min(located.size(), points.size() - first);

@@ -24,7 +24,8 @@ VoxelGrid voxel_grid(const CloudView& cloud, const std::vector<Index>& points, d
 /// Bounds of the edge of a voxel, metres: within them, squares of lengths are neither zero nor
 /// infinite, and a length of a few voxels is a float.
 inline constexpr double kLeastVoxel = 1e-30, kMostVoxel = 1e30;
-/// Up to this corner, in voxels, the coordinates of neighbours are exact.
+/// The largest coordinate of a corner, in voxels, for which the coordinates of neighbouring corners
+/// are exact.
 inline constexpr double kMostExactCell = 1ULL << 52;
 
 /// Checks that neighbouring cells have different coordinates, as a search for neighbours needs.

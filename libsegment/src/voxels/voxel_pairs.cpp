@@ -25,9 +25,9 @@ std::vector<VoxelRow> rows_of(const VoxelGrid& grid) {
   return rows;
 }
 
-/// The offset of a row from the row that searches for pairs: an earlier row, or itself. Rows search
-/// in the order of the grid and meet the rows at one offset in that order: no row is searched for
-/// again.
+/// The offset of a row from the row that searches for pairs; it leads to an earlier row or to the
+/// row itself. The rows search in the order of the grid, and at each offset they meet the other
+/// rows in the same order. It is therefore enough to move `next` forward.
 struct Offset {
   double y, z;
   double reach;          // how far along x a near voxel of the other row can be
@@ -36,7 +36,7 @@ struct Offset {
 
 std::vector<Offset> offsets_within(double radius) {
   const double most = std::ceil(radius);
-  // Centroids of voxels k rows apart may be as close as k - 1.
+  // If two voxels are k rows apart, the distance of their centroids may be as small as k - 1.
   const auto square_of_gap = [&](double k) { return std::pow(std::max(0.0, std::abs(k) - 1), 2); };
   std::vector<Offset> offsets;
   for (double z = -most; z <= 0; ++z) {
@@ -70,8 +70,9 @@ std::vector<Place> places_of(const VoxelGrid& grid) {
   return places;
 }
 
-/// Finds the pairs of a voxel of `row` and a voxel of `other`, which does not come after it, and
-/// writes them to `to`. Precondition: there is room for all pairs within reach, and one more.
+/// Finds the pairs of a voxel of `row` and a voxel of `other`, and writes them to `to`.
+/// Preconditions: `other` does not come after `row`, and there is room for all pairs within reach
+/// and one more.
 /// @return the end of the pairs.
 VoxelPair* write_pairs(const std::vector<Place>& places, const VoxelRow& row, const VoxelRow& other,
                        double reach, double square_of_radius, VoxelPair* to) {
@@ -86,7 +87,7 @@ VoxelPair* write_pairs(const std::vector<Place>& places, const VoxelRow& row, co
       const double x = p.x - q.x, y = p.y - q.y, z = p.z - q.z;
       const double square = x * x + y * y + z * z;
       // Branchless, because the branch would be unpredictable: always writes the pair, but advances
-      // only past a near one.
+      // only if it is near.
       *to = {u, v, std::sqrt(static_cast<float>(square))};
       to += square < square_of_radius ? 1 : 0;
     }
@@ -98,15 +99,16 @@ VoxelPair* write_pairs(const std::vector<Place>& places, const VoxelRow& row, co
 
 VoxelPairs close_voxels(const VoxelGrid& grid, double voxel, double reach,
                         const RunContext& context) {
-  // Beyond this, a row and the next may have the same number: the search would not end.
+  // Larger coordinates could give a row and the next one the same number, and the search would not
+  // end.
   require_exact_cells(grid, voxel);
   const std::vector<VoxelRow> rows = rows_of(grid);
   const std::vector<Place> places = places_of(grid);
   std::vector<Offset> offsets = offsets_within(reach);
   const double square_of_radius = std::pow(reach * voxel, 2);
   VoxelPairs pairs(&context.memory);
-  // Room for a curved surface: half of the disk around each voxel and a third more. Growing would
-  // copy all pairs and touch three times the memory.
+  // Reserves room for the pairs on a curved surface: half of the disk around each voxel, and a
+  // third more. Growing the list would copy all pairs and touch three times the memory.
   const double disk = 4.0 / 3 * std::numbers::pi * reach * reach;
   pairs.reserve(static_cast<std::size_t>(disk / 2 * static_cast<double>(grid.cells.size())));
   const auto most_of_voxel = static_cast<std::size_t>(2 * std::ceil(reach) + 1);

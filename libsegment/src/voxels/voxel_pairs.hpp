@@ -23,15 +23,15 @@ using VoxelPairs = RawVector<VoxelPair>;
 
 /// All pairs of voxels whose centroids are closer than a number of voxels, in an order that depends
 /// on the voxels alone. O(rows * reach^2 + pairs), without a tree or a hash.
-/// @param voxel edge of a voxel of the grid, metres. @param reach in voxels, > 0; small, because
-/// the search counts through it. @throws Error (usage) like require_exact_cells; Error (resource,
-/// cancelled).
+/// @param voxel edge of a voxel of the grid, metres. @param reach the number of voxels, > 0; it
+/// must be small, because the search visits all offsets within it. @throws Error (usage) like
+/// require_exact_cells; Error (resource, cancelled).
 VoxelPairs close_voxels(const VoxelGrid& grid, double voxel, double reach,
                         const RunContext& context = default_context());
 
-/// Calls `use` for the pairs with distance < `radius`, in their order. It selects them in batches:
-/// the test for nearness is unpredictable, and a branch per pair would be mispredicted every third
-/// time.
+/// Calls `use` for the pairs with a distance below `radius`, in their order. Selects them in
+/// batches, because their distances are unpredictable: a branch per pair would be mispredicted
+/// every third time.
 template <class Use>
 void for_each_within(std::span<const VoxelPair> pairs, double radius, Use&& use) {
   constexpr std::size_t some = 256;
