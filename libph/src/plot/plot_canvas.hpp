@@ -140,7 +140,7 @@ class Canvas {
   void shape(Outline outline, const Style& style);
   void text(double x, double y, std::string_view content, Anchor anchor = Anchor::start,
             double size = 7, Colour colour = kInk, Look look = Look::plain);
-  /// @param raster must outlive the drawing.
+  /// Draws a raster. @param raster must outlive the drawing.
   void picture(double x, double y, double width, double height, const Raster& raster);
   /// Draws the title above everything, cut in the middle if it is too long.
   void title(const std::string& title);
@@ -180,8 +180,8 @@ class Axis {
   std::vector<Tick> ticks(int count) const;
   /// "×10⁻⁶" if the labels are in such units, otherwise empty.
   std::string unit() const;
-  /// Draws gridlines between `top` and `bottom`, and below `bottom` ticks, labels and the name of
-  /// the axis.
+  /// Draws gridlines between `top` and `bottom`. Draws the ticks, the labels and the name of the
+  /// axis below `bottom`.
   void draw_below(Canvas& canvas, double top, double bottom, const std::string& name) const;
 
  private:
@@ -218,8 +218,8 @@ std::vector<int> dims_of(const Barcode& barcode);
 /// A description such as "214 bars in H₀, 3 in H₁".
 std::string description_of(const Barcode& barcode);
 
-// Each draws the visible bars of a barcode, a tree or a picture. @param beyond the number of bars
-// that are beyond the axis.
+// Each of these functions draws the visible bars of a barcode, a merge tree, or a coloured picture.
+// @param beyond the number of bars that are beyond the axis.
 Drawing draw_barcode(const Barcode& barcode, std::size_t beyond, const PlotOptions& options);
 Drawing draw_diagram(const Barcode& barcode, std::size_t beyond, const PlotOptions& options);
 Drawing draw_betti(const Barcode& barcode, std::size_t beyond, const PlotOptions& options);

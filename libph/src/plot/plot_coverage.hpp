@@ -24,8 +24,8 @@ class Coverage {
   void add(Place from, Place to);
   /// Adds a polygon, which is closed automatically.
   void add(std::span<const Place> corners);
-  /// Adds a polygon, with its orientation reversed if necessary: overlapping polygons form a single
-  /// area.
+  /// Adds a polygon, and reverses its orientation if necessary, so that overlapping polygons form a
+  /// single area.
   void add_turned(std::span<const Place> corners);
 
   /// Calls visit(pixel, part) with the number of a pixel, row by row, and 0 < part <= 1; then

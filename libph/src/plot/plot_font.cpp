@@ -112,7 +112,7 @@ struct Font::Face {
   ~Face() {
     if (library != nullptr) FT_Done_Library(library);  // frees its faces as well
   }
-  /// @throws std::bad_alloc; Error (internal).
+  /// Checks the result of a call of FreeType. @throws std::bad_alloc; Error (internal).
   void require(FT_Error error) const {
     if (out_of_memory) throw std::bad_alloc();
     if (error != 0)

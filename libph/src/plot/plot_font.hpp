@@ -18,7 +18,7 @@ class Font {
     double advance = 0;                        // distance to the next character
   };
 
-  /// @throws Error (internal) if FreeType cannot read the font; std::bad_alloc.
+  /// Loads the font. @throws Error (internal) if FreeType cannot read it; std::bad_alloc.
   Font();
   ~Font();
   Font(const Font&) = delete;

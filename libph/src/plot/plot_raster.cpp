@@ -175,7 +175,7 @@ class Painter {
     return raster.bits == 16 ? static_cast<std::uint16_t>(value >> 8) : value;
   }
 
-  /// @param halo width of a line along the outlines, in pixels.
+  /// Adds the outlines of a text. @param halo width of a line along the outlines, in pixels.
   void add_text(const Text& text, double halo) {
     const std::vector<std::string> characters = characters_of(text.content);
     const double size = scale_ * text.size;
@@ -215,7 +215,7 @@ class Painter {
                                                {to.x + x, to.y + y}}});
   }
 
-  /// Lines meet in round joints.
+  /// Adds a line along a piece; its parts meet in round joints.
   void add_stroke(const Piece& piece, double width) {
     const std::vector<Place>& corners = piece.corners;
     for (std::size_t i = 1; i < corners.size(); ++i) add_stroke(corners[i - 1], corners[i], width);

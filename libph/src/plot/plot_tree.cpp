@@ -17,7 +17,7 @@ constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 /// The branches that are drawn, with a row for each.
 class Layout {
  public:
-  /// @param shown positions in `tree`, ascending.
+  /// @param shown the positions in `tree` of the branches that are drawn, ascending.
   Layout(std::span<const Branch> tree, const std::vector<std::size_t>& shown)
       : tree_(tree), shown_(shown), row_(shown.size()), children_(shown.size()) {
     std::vector<std::size_t> roots;

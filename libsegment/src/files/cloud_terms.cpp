@@ -24,7 +24,7 @@ std::optional<std::size_t> place_in(const Names& names, std::string_view name) {
   return static_cast<std::size_t>(found - names.begin());
 }
 
-/// True if the cloud has all three fields, as one number each.
+/// True if the cloud has all three fields, each with one number per point.
 bool has(const Cloud& cloud, const Names& names) {
   return std::ranges::all_of(names, [&](std::string_view name) {
     const CloudField* const field = cloud.find(name);

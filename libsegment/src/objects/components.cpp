@@ -21,8 +21,8 @@ struct Component {
   Vec3 sum{};         // sum of these points
 };
 
-/// Components are sorted by decreasing number of points, then of voxels, then in grid order; the
-/// order of the points does not matter.
+/// Components are sorted by decreasing number of points, then by decreasing number of voxels, then
+/// in the order of the grid. The result does not depend on the order of the points.
 bool comes_before(const Component& a, const Component& b) {
   if (a.points != b.points) return a.points > b.points;
   if (a.voxels != b.voxels) return a.voxels > b.voxels;
@@ -66,7 +66,7 @@ std::vector<std::array<Vec3, 3>> axes_of(const SceneTree& scene, const SceneCut&
   return axes;
 }
 
-/// Both boxes of each segment. @param points sorted by segment.
+/// Measures both boxes of each segment. @param points the points, sorted by segment.
 void measure_boxes(const SceneTree& scene, const Coordinates& points, SceneCut& cut) {
   std::vector<std::array<Vec3, 3>> axes;
   if (!scene.plane) axes = axes_of(scene, cut);

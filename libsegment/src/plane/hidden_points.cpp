@@ -26,8 +26,8 @@ PlaneSight sight_past(const CloudView& cloud, const std::vector<Index>& points, 
   const double eye_height = plane.signed_distance(vx, vy, vz);
   const Squares squares(plane, kCell * margin.distance);
   std::vector<const float*> on;
-  std::vector<Eigen::Vector3d>
-      through;  // where the line of sight to a point behind the plane meets it
+  // For each point behind the plane, the place at which the line of sight to it meets the plane.
+  std::vector<Eigen::Vector3d> through;
   std::size_t before = 0;
   for (std::size_t k = 0; k < points.size(); k += step) {
     const float* p = cloud.point(static_cast<std::size_t>(points[k]));

@@ -14,11 +14,11 @@ namespace {
 
 constexpr std::size_t kSample = 4096;  // points that take part in the refits
 constexpr std::size_t kScored = 1024;  // points that score a hypothesis
-constexpr int kHypotheses =
-    500;  // finds a plane with a quarter of the points with probability 99.96 %
+// Enough to find a plane that holds a quarter of the points with a probability of 99.96 %.
+constexpr int kHypotheses = 500;
 constexpr int kRefits = 4;
-constexpr double kSmallestShare =
-    0.1;  // a plane with a smaller share of the points supports nothing
+// A plane with a smaller share of the points supports nothing.
+constexpr double kSmallestShare = 0.1;
 
 /// Mixes the bits of a word (the finaliser of splitmix64, Steele, Lea & Flood 2014).
 std::uint64_t mix(std::uint64_t x) {

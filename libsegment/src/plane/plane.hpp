@@ -51,8 +51,9 @@ struct PlaneMargin {
 struct Cleared {
   std::vector<Index> beyond;  ///< on the sensor's side of the plane and beyond the margin
   std::vector<Index> on;      ///< within the margin, on either side: part of the plane
-  std::vector<Index> strip;   ///< points of `on` on the sensor's side, but not in the lowest
-                              ///< fifth of the margin, where they look like the plane itself
+  /// The points of `on` on the sensor's side, without those in the lowest fifth of the margin,
+  /// which look like the plane itself.
+  std::vector<Index> strip;
 };
 
 /// Removes the points on the plane or behind it (the floor beyond a table's edge, reflections),

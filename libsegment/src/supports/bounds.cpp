@@ -24,7 +24,7 @@ std::vector<Voxels> voxels_of(const Parts& parts) {
   return voxels;
 }
 
-/// True if all visible points lie on the viewpoint's side of a plane.
+/// True if nearly all points lie on the viewpoint's side of a plane.
 bool bounds_the_view(const Plane& plane, const CloudView& cloud) {
   constexpr PlaneMargin margin{0.02, 0.02};  // multiple of the noise
   constexpr double most_behind = 0.01;       // share of all points: reflections, flying pixels

@@ -7,7 +7,8 @@
 
 namespace ph::segment {
 
-/// The margin of a plane at range r, in metres: it allows for the noise of depth from disparity.
+/// The margin of a plane, in metres, for the square of a range. It allows for the noise of depth
+/// from disparity.
 double flatness(double square_of_range);
 
 /// The plane of a flat object's voxels, facing the viewpoint; empty if they do not lie on a plane.

@@ -48,7 +48,7 @@ class Squares {
   Numbers columns_, rows_;
 };
 
-/// The lowest point beyond the plane over a square, and its voxel.
+/// The lowest point over a square of the plane, and its voxel.
 struct Wall {
   double height = kInfinity;
   std::uint32_t voxel = 0;

@@ -17,7 +17,7 @@ struct VoxelGrid {
 
 /// Sorts points into cubes with edge `voxel`. O(points + voxels log voxels). The result depends on
 /// the set of points alone, to the last bit, because offsets inside a voxel are added as integers.
-/// @param points indices into the cloud, without holes. @param voxel metres, > 0.
+/// @param points indices into the cloud, without holes. @param voxel edge of a cube, metres, > 0.
 /// @throws Error (usage) if `voxel` is too small for coordinates of this size.
 VoxelGrid voxel_grid(const CloudView& cloud, const std::vector<Index>& points, double voxel);
 
@@ -29,7 +29,7 @@ inline constexpr double kLeastVoxel = 1e-30, kMostVoxel = 1e30;
 inline constexpr double kMostExactCell = 1ULL << 52;
 
 /// Checks that neighbouring cells have different coordinates, as a search for neighbours needs.
-/// @throws Error (usage) on a voxel beyond kMostExactCell, naming it.
+/// @throws Error (usage) if a voxel lies beyond kMostExactCell; the message names it.
 void require_exact_cells(const VoxelGrid& grid, double voxel);
 
 }  // namespace ph::segment

@@ -15,8 +15,8 @@
 namespace ph {
 namespace {
 
-/// Minus infinity becomes the string "-inf", because null stands for plus infinity: a death of null
-/// means that the class never dies.
+/// JSON has no infinities. Minus infinity becomes the string "-inf"; plus infinity becomes null,
+/// and a death of null means that the class never dies.
 std::string json_value(double value) {
   return value == -kInfinity ? "\"-inf\"" : json::number(value);
 }

@@ -104,7 +104,7 @@ LzfFault lzf_decompress(std::span<const std::byte> in, std::size_t size, const L
 std::vector<std::byte> lzf_compress(std::span<const std::byte> in) {
   std::vector<std::byte> out;
   out.reserve(in.size() / 2 + 64);
-  // Newest position of each hash.
+  // The newest position of each hash; SIZE_MAX if the hash has not occurred.
   std::vector<std::size_t> last(std::size_t{1} << kHashBits, SIZE_MAX);
   std::size_t i = 0, literals = 0;  // literals: start of the bytes that are not written yet
   while (i + 3 <= in.size()) {

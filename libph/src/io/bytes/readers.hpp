@@ -19,7 +19,7 @@ struct TextTable {
 
 /// Reads an entire table. @param allow the cells that may occur besides finite numbers.
 /// @param counted true if the first line is the number of rows. @param layout the columns to read;
-/// if null, all columns, after a first line of names if there is one.
+/// if null, all columns are read, and a first line of names is a header.
 TextTable read_text_table(const Input& input, Allow allow, const ReadOptions& options,
                           bool counted = false, const TableLayout* layout = nullptr);
 /// Reads a table as an image: one row of pixels per line. One row or one column is an image of one
@@ -85,7 +85,8 @@ enum class DiphaType : std::int64_t {
   sparse_distance_matrix = 8,
 };
 constexpr std::int64_t kDiphaMagic = 8067171840;
-/// @throws Error (bad_data) on another magic number or an unknown type.
+/// Reads the type of a DIPHA file. @throws Error (bad_data) on another magic number or an unknown
+/// type.
 DiphaType dipha_type(const Input& input);
 
 // Each of these functions reads a DIPHA file of one type. @throws Error (bad_data) if the file is

@@ -48,7 +48,7 @@ class Inflater {
       } else if (code != Z_OK && code != Z_BUF_ERROR) {
         damage_ = stream_.msg != nullptr ? stream_.msg : "not deflate data";
       } else if (taken == 0 && given == 0) {
-        break;  // zlib needs bytes that are missing
+        break;  // the input ends before the stream does
       }
     }
     return done;

@@ -11,7 +11,7 @@ namespace ph::detail {
 /// Limits for the expansion of compressed data. They apply whatever the memory budget is, because a
 /// file of a few kilobytes that expands to gigabytes is a decompression bomb.
 constexpr std::size_t kMostFree = std::size_t{128} << 20;  ///< bytes that are always allowed
-/// The limit for larger results, as a multiple of the packed size.
+/// The largest size of a result above kMostFree, as a multiple of the packed size.
 constexpr std::size_t kMostExpansion = 256;
 
 /// True if the bytes start like a gzip file.

@@ -24,7 +24,8 @@ class YamlWords {
     std::vector<Word> words;           ///< one word, or the words of a list
   };
 
-  /// @throws Error (bad_data) "name:line:column: …".
+  /// Reads the words of an input. @throws Error (bad_data) with a message that begins with
+  /// "name:line:column: ".
   explicit YamlWords(const Input& input);
 
   /// Finds a value by its path in lower case, with dots between keys; null if it does not exist.

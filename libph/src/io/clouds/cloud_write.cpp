@@ -134,8 +134,9 @@ char pcd_type(FieldType type) {
   return is_signed ? 'I' : 'U';
 }
 
-// The names of the fields, changed so that each is one word in a header and all differ.
-// @param padding true if "_" may occur more than once, as in PCD.
+// The names of the fields, changed so that each is a single word, as a header needs, and no two are
+// equal.
+// @param padding true if several fields may be named "_", as in PCD.
 std::vector<std::string> header_words(const Cloud& cloud, bool padding) {
   std::vector<std::string> words;
   std::set<std::string> taken;

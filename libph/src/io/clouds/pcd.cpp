@@ -48,7 +48,7 @@ void read_binary(const Input& input, PcdHeader& header) {
 // Takes the data of a compressed file field by field, and stores them record by record.
 class Interleaver {
  public:
-  /// @param points at least 1.
+  /// @param points number of points, at least 1.
   Interleaver(Cloud& cloud, std::size_t points) : cloud_(cloud), points_(points) { start_field(); }
 
   void take(std::span<const std::byte> bytes) {

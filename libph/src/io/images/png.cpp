@@ -186,7 +186,7 @@ Raster read_png(const Input& input) {
   raster.bits = png_get_bit_depth(reader.png, reader.info);
   const std::size_t row_bytes = png_get_rowbytes(reader.png, reader.info);
   const auto height = static_cast<std::size_t>(raster.height);
-  // Expansion makes at most 32 bits from one.
+  // Expansion turns one bit into at most 32 bits.
   if (height * row_bytes / 32 / kMaxExpansion > input.size()) {
     input.fail_at_byte(16, {"truncated: the size of the image does not fit the file",
                             fmt::format("{} x {} pixels", raster.width, raster.height),

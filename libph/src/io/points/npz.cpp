@@ -170,7 +170,7 @@ Input read_npz_member(const Input& input) {
   cursor.take(lengths, "header of a member");
   const std::size_t data_at = cursor.offset();
   cursor.take(member.packed, "member");
-  // Deflate makes at most 1032 bytes from one.
+  // Deflate expands one byte to at most 1032 bytes.
   const bool possible =
       member.method == kStored ? member.size == member.packed : member.size / 1032 <= member.packed;
   if (!possible) {

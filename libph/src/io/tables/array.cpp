@@ -13,8 +13,8 @@
 namespace ph::detail {
 namespace {
 
-constexpr std::size_t kPollMask =
-    0xFFFFF;  // elements between two polls of the stop token, less one
+// The number of elements between two polls of the stop token, less one.
+constexpr std::size_t kPollMask = 0xFFFFF;
 
 double half_to_double(std::uint16_t bits) {
   const int exponent = (bits >> 10) & 0x1F;

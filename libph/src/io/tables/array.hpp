@@ -40,8 +40,8 @@ struct NpyLayout {
   char kind = 'f';        ///< NumPy's letter of the type: b, u, i or f
   std::size_t count = 0;  ///< number of elements, which are all present
 };
-/// @throws Error (bad_data) if the input is not an NPY file, or has a different number of elements
-/// than it states.
+/// Reads the header of an NPY. @throws Error (bad_data) if the input is not an NPY file, or has a
+/// different number of elements than it states.
 NpyLayout npy_layout(const Input& input);
 
 /// True if `bytes` bytes made from an input should stay in a file: if they take more than a third

@@ -172,8 +172,8 @@ bool has_blanks_between_numbers(std::string_view line) {
       });
 }
 
-// True if each tab separates two cells. If blanks also separate numbers, this holds only if a
-// header and the first row have equally many cells between tabs.
+// True if each tab separates two cells. If blanks separate numbers as well, tabs separate cells
+// only if a header and the first row have the same number of cells between tabs.
 bool has_tabs_between_cells(const Input& input) {
   TextLines lines(input);
   lines.keep_tabs();

@@ -210,7 +210,7 @@ class PersistenceSegmentation : public ::pcl::PCLBase<PointT> {
   /// grows with the square of the range.
   void setPlaneNoise(double metres) { options_.plane_noise = metres; }
   double getPlaneNoise() const { return options_.plane_noise; }
-  /// The supporting plane of the frame before; unsetPlaneGuess forgets it.
+  /// The supporting plane of the previous frame; unsetPlaneGuess forgets it.
   void setPlaneGuess(const segment::Plane& plane) { options_.plane_guess = plane; }
   void unsetPlaneGuess() { options_.plane_guess.reset(); }
   const std::optional<segment::Plane>& getPlaneGuess() const { return options_.plane_guess; }
@@ -252,7 +252,7 @@ class PersistenceSegmentation : public ::pcl::PCLBase<PointT> {
   /// Method paper: maximum distance of the Vietoris-Rips complex, metres.
   void setDistance(double metres) { options_.distance = metres; }
   double getDistance() const { return options_.distance; }
-  /// Method paper: number of levels up to the distance; 0: exact deaths.
+  /// Method paper: number of levels up to the distance; 0 for exact deaths.
   void setSteps(int steps) { options_.steps = steps; }
   int getSteps() const { return options_.steps; }
   /// If true, union-find is compared with the reduction of the boundary matrix.
