@@ -13,8 +13,8 @@
 namespace ph::segment {
 namespace {
 
-/// The edges where segments first meet. Two segments may have many edges between them; only the
-/// first is stored.
+/// For each pair of segments, the value at which they first meet. Two segments may have many edges
+/// between them; only the first counts.
 Contacts contacts_of(const SceneTree& scene, const Surface& surface, const CutOptions& options,
                      const SceneCut& cut, const RunContext& context) {
   Contacts contacts(&context.memory);

@@ -57,8 +57,8 @@ constexpr std::size_t kProbe = 4096;
 // if the input may be a table of numbers.
 constexpr std::size_t kFewLetters = 4;
 
-// True for two letters such as P6, then comments and a line with two sizes. The letters alone are
-// not enough, because a column of a table may have them as its name.
+// True if the bytes begin with two letters such as P6, then comments, then a line with two sizes.
+// The letters alone are not enough, because a column of a table may have them as its name.
 bool is_picture(std::string_view bytes, std::array<std::string_view, 2> letters) {
   if (bytes.size() < 3 || bytes[2] != '\n' || std::ranges::count(letters, bytes.substr(0, 2)) == 0)
     return false;

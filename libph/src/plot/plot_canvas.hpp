@@ -198,7 +198,8 @@ class Axis {
   bool shows_unit_ = false, logarithmic_ = false, negated_ = false;
 };
 
-/// The limits of the axis as values of the bars; for negated data they are swapped.
+/// The limits of the axis in terms of the bars' values. For negated data, the two limits are
+/// negated and swapped.
 PlotAxis limits_of(const PlotOptions& options);
 /// The range of the values on the axis; an arbitrary range if there are none.
 Range finite_range(const Barcode& barcode, const PlotOptions& options);

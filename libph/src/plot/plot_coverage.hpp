@@ -13,8 +13,8 @@ struct Place {
   double x = 0, y = 0;
 };
 
-/// The part of each pixel that an area covers. Areas are added by their edges; overlapping areas
-/// with the same orientation form a single area.
+/// The part of each pixel that an area covers. Areas are added edge by edge; overlapping areas with
+/// the same orientation form a single area.
 class Coverage {
  public:
   Coverage(std::size_t width, std::size_t height);

@@ -37,7 +37,7 @@ void add_cells(ReportFile& report, const Barcode& barcode, std::string_view pref
     births.add(barcode.birth_cell(i));
     if (const auto death = barcode.death_cell(i)) deaths.add(*death);
   }
-  // A barcode without cells has no births; the page needs the cells of all bars or of none.
+  // A barcode without cells has no birth cells; the page needs the cells of all bars or of none.
   if (births.numbers().empty()) return;
   report.add(fmt::format("{}/birth_cells", prefix), births.numbers());
   report.add(fmt::format("{}/death_cells", prefix), deaths.numbers());

@@ -71,8 +71,8 @@ double least_cut(const MergeTree& tree, CutRule rule, std::size_t most) {
       std::ranges::none_of(levels, [](double x) { return std::isfinite(x); }))
     levels.clear();
   if (levels.empty()) {
-    // No merge has finite persistence, and any cut above 0 does all merges: return a cut as large
-    // as the values.
+    // If no merge has finite persistence, any cut above 0 performs all merges. The result is then a
+    // cut as large as the range of the births.
     if (rule == CutRule::value || tree.merges.empty()) return 0;
     double low = kInfinity, high = -kInfinity;
     for (const double birth : tree.births)

@@ -20,7 +20,8 @@ class View {
   View(const Points& centroids, double voxel, const Vec3& viewpoint);
 
   /// True if a nearer voxel of another kind lies within two cells of a voxel.
-  /// @param nearer least difference in range, metres. @param kind_of returns the kind of a voxel.
+  /// @param nearer the least difference in range that counts, metres. @param kind_of returns the
+  /// kind of a voxel.
   template <class KindOf>
   bool is_at_occluder(Voxel v, double nearer, KindOf&& kind_of) const;
   /// Counts cells along the straight line between two voxels. Cells whose nearest voxel is of the

@@ -39,7 +39,8 @@ std::uint64_t hash_of(const float* p) {
          word(p[2]) * 0x94d049bb133111ebULL + 0xd6e8feb86659fd93ULL;
 }
 
-/// Some of the points, as columns, so that the compiler can vectorise over them.
+/// Some of the points, with an array for each coordinate, so that the compiler can vectorise over
+/// them.
 struct Sample {
   std::vector<double> x, y, z;
   std::size_t size() const { return x.size(); }

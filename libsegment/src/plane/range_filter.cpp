@@ -9,7 +9,8 @@ std::vector<Index> range_filter(const CloudView& cloud, double max_range,
                                 const std::optional<Box>& crop) {
   const auto size = cloud.size();
   const auto& [vx, vy, vz] = cloud.viewpoint;
-  // Doubles hold the square of any float distance; distances from a far viewpoint may be infinite.
+  // A double can hold the square of the distance between any two floats; the distance from a
+  // farther viewpoint may be infinite.
   const double limit = max_range * max_range;
   std::vector<Index> kept;
   kept.reserve(size);  // only the memory that is written is touched

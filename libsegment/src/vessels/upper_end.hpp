@@ -7,7 +7,8 @@
 
 namespace ph::segment {
 
-/// Rotates coordinates so that z is along `up`, a unit vector; x and y are arbitrary.
+/// The rotation that turns `up`, a unit vector, into the z axis; the directions of x and y are
+/// arbitrary.
 Eigen::Matrix3d upright(const Vec3& up);
 
 /// The upper end of an object, seen from above.

@@ -21,8 +21,8 @@ struct VoxelGrid {
 /// @throws Error (usage) if `voxel` is too small for coordinates of this size.
 VoxelGrid voxel_grid(const CloudView& cloud, const std::vector<Index>& points, double voxel);
 
-/// Bounds of the edge of a voxel, metres: within them, squares of lengths are neither zero nor
-/// infinite, and a length of a few voxels is a float.
+/// The bounds of the edge of a voxel, in metres. Within them, squares of lengths are neither zero
+/// nor infinite, and a length of a few voxels fits into a float.
 inline constexpr double kLeastVoxel = 1e-30, kMostVoxel = 1e30;
 /// The largest coordinate of a corner, in voxels, for which the coordinates of neighbouring corners
 /// are exact.

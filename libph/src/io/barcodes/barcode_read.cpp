@@ -24,7 +24,8 @@ Barcode read_dipha(const Input& input) {
   Barcode barcode;
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t at = cursor.offset();
-    // An essential class of dimension k is stored as -k-1; its death serves only for drawing.
+    // An essential class of dimension k is stored with the dimension -k-1; its death serves only
+    // for drawing.
     const auto dim = cursor.read<std::int64_t>("bar");
     Bar bar;
     bar.birth = cursor.read<double>("bar") + 0.0;

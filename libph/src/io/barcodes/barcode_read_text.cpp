@@ -88,8 +88,8 @@ void find_index(const TextLines& lines, Columns& columns) {
     columns.roles.insert(columns.roles.begin(), Column::other);
 }
 
-/// Finds the columns of a table without a header, by its first row: `dim birth death`, or GUDHI's
-/// `p dim birth death`.
+/// Finds the columns of a table without a header from the number of cells in its first row, which
+/// is `dim birth death`, or GUDHI's `p dim birth death`.
 Columns columns_by_count(const TextLines& lines) {
   Cells counter(lines);
   std::size_t count = 0;

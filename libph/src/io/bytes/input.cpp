@@ -19,8 +19,8 @@
 namespace ph {
 namespace {
 
-// Files up to this size are copied: this is cheaper than page faults, and safe against a file that
-// shrinks.
+// Files up to this size are copied instead of mapped. Copying is cheaper than page faults, and safe
+// if the file shrinks.
 constexpr std::size_t kMapFrom = std::size_t{16} << 20;
 constexpr std::size_t kFirstChunk = std::size_t{64} << 10;
 // A stream that begins with this many NUL bytes holds no data.

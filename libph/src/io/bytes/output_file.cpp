@@ -169,8 +169,8 @@ void OutputFile::commit() {
   }
   const auto folder = folder_of(target_);
   if (temporary_.empty()) {
-    // A link cannot replace a file; two steps are therefore needed: a temporary name, then the
-    // rename.
+    // A link cannot replace an existing file. The file therefore gets a temporary name first, and
+    // is then renamed.
     temporary_ = files::name_in(descriptor_, folder);
     if (temporary_.empty()) fail_creating(path_, files::reason(errno));
   }
@@ -180,7 +180,8 @@ void OutputFile::commit() {
   if (!files::rename(temporary_, target_)) fail_replacing(path_, errno);
   temporary_.clear();
   discard();
-  // The new name is on the disk once the folder is; if this fails, the file is still complete.
+  // The new name is permanent only once the folder is on the disk. If this fails, the file is still
+  // complete.
   files::sync_folder(folder);
 }
 

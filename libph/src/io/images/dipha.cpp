@@ -62,8 +62,8 @@ std::int64_t read_int(BinaryCursor& cursor, std::int64_t least, std::int64_t mos
 
 std::size_t to_size(std::int64_t value) { return static_cast<std::size_t>(value); }
 
-// Reads the number of points. The file must have at least eight bytes per point; no points are an
-// error unless options.allow_empty.
+// Reads the number of points. The file must have at least eight bytes per point; a file without
+// points is an error unless options.allow_empty.
 std::size_t read_points_count(BinaryCursor& cursor, const ReadOptions& options) {
   const std::size_t count = cursor.read_count("number of points", kWord);
   if (count == 0 && !options.allow_empty) {

@@ -26,7 +26,8 @@ struct Source {
   std::size_t offset = 0;
 };
 
-// libpng is C code: only longjmp may leave it, and an error is therefore stored here first.
+// libpng is C code, which only longjmp may leave. An error is therefore stored here before the
+// jump.
 struct Report {
   std::string message;
   bool out_of_memory = false;

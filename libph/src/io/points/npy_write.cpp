@@ -11,8 +11,8 @@
 namespace ph {
 
 void write_npy_header(OutputFile& file, std::span<const std::size_t> shape) {
-  // Magic number, version, length of the header, and a header that ends in a newline at a multiple
-  // of 64 bytes.
+  // The file begins with a magic number, a version and the length of the header; the header ends in
+  // a newline at a multiple of 64 bytes.
   std::string extents;
   for (const std::size_t n : shape) extents += fmt::format("{}{}", extents.empty() ? "" : ", ", n);
   std::string header = fmt::format("{{'descr': '<f8', 'fortran_order': False, 'shape': ({}{}), }}",

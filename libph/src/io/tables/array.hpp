@@ -48,7 +48,7 @@ NpyLayout npy_layout(const Input& input);
 /// of the remaining memory, or if the input itself stays in a file.
 bool stays_in_file(const Input& input, std::size_t bytes);
 
-/// The number of elements of an array, which must reach from its offset to the end of the input.
+/// Counts the elements of an array, which must end exactly at the end of the input.
 /// @throws Error (bad_data) "truncated" or "trailing data".
 std::size_t count_elements(const Input& input, const ArrayLayout& layout,
                            const std::vector<Index>& extents);

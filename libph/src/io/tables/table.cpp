@@ -226,8 +226,8 @@ bool may_be_names(const TextLines& first, const TextLines& next, const TableLayo
   return looks(first) == std::pair(true, true) && !looks(next).second;
 }
 
-// True if the first column is left out, because it has the names of the rows or counts them; a note
-// gives the reason.
+// True if the first column is left out because it contains the names or the numbers of the rows; a
+// note gives the reason.
 bool leads_with_names(const Input& input, TableLayout& layout, std::string_view first_cell) {
   if (layout.width < 2) return false;
   const bool is_full = layout.header.size() == layout.width;

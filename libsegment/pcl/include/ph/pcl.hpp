@@ -316,8 +316,8 @@ class PersistenceSegmentation : public ::pcl::PCLBase<PointT> {
       coefficients.values.push_back(static_cast<float>(n));
     coefficients.values.push_back(static_cast<float>(result_.tree.plane->offset));
   }
-  /// The box of a segment: its axes are the columns of `rotation`. @param i from 0, below the
-  /// number of segments.
+  /// The box of a segment: its axes are the columns of `rotation`. @param i number of the segment,
+  /// counted from 0.
   void getOrientedBox(std::size_t i, Eigen::Vector3f& centre, Eigen::Matrix3f& rotation,
                       Eigen::Vector3f& size) const {
     const segment::OrientedBox& box = result_.cut.segments.at(i).oriented_box;
