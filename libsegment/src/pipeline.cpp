@@ -21,8 +21,8 @@ namespace ph::segment {
 namespace {
 
 /// The most memory that all stages together need for the points. Each point needs its number in
-/// four lists of remaining points, its voxel, its number, its vertex and its coordinates in the
-/// tree, the same sorted by segment, its label, and its surfaces.
+/// four lists of remaining points; its voxel; its number, its vertex and its coordinates in the
+/// tree; a copy of the coordinates, sorted by segment; its label; and its surfaces.
 std::size_t bytes_for_points(const CloudView& cloud) {
   constexpr std::size_t bytes_per_point = 5 * 8 + 4 + 4 + 12 + 12 + 4 + 2;
   return cloud.size() * bytes_per_point;

@@ -180,8 +180,8 @@ class Axis {
   std::vector<Tick> ticks(int count) const;
   /// "×10⁻⁶" if the labels are in such units, otherwise empty.
   std::string unit() const;
-  /// Draws gridlines between `top` and `bottom`. Draws the ticks, the labels and the name of the
-  /// axis below `bottom`.
+  /// Draws gridlines between `top` and `bottom`, and the ticks, the labels and the name of the axis
+  /// below `bottom`.
   void draw_below(Canvas& canvas, double top, double bottom, const std::string& name) const;
 
  private:

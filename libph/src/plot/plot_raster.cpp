@@ -12,7 +12,7 @@
 namespace ph::plot {
 namespace {
 
-constexpr double kBold = 0.045;  // share of the size by which bold type thickens outlines
+constexpr double kBold = 0.045;  // thickening of outlines by bold type, as a share of the size
 
 /// Width of a picture in pixels.
 Index pixels_across(const Drawing& drawing) {

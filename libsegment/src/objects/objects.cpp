@@ -68,8 +68,8 @@ class HiddenJoins {
  private:
   static constexpr double kLongestGap = 0.15;  // metres; a wider occluder allows only a guess
 
-  /// Clears a border of too few voxels, and keeps a bounded number of evenly spread voxels of any
-  /// other. This is enough, because the decision about parts rests only on a share of the voxels.
+  /// Clears a border that has too few voxels. Of any other border, keeps a limited number of evenly
+  /// spread voxels, because the decision about parts depends only on shares of the voxels.
   static void thin_out(Border& border) {
     constexpr std::size_t fewest = 5, most = 60;
     if (border.size() < fewest) border.clear();
