@@ -178,7 +178,7 @@ TEST(Atol, RefusesWhatMakesNoSenseAndStops) {
   std::vector<double> out(2);
   expect_error(ErrorKind::usage, "found 0 centres", [&] { fit_atol(Spans{bars}, {.centres = 0}); });
   expect_error(ErrorKind::usage, "-1 rounds", [&] { fit_atol(Spans{bars}, {.most_rounds = -1}); });
-  expect_error(ErrorKind::bad_data, "expected finite ones", [&] {
+  expect_error(ErrorKind::bad_data, "expected finite bars", [&] {
     fit_atol(Spans{Bars{{0, 0, kInfinity}}});
   });
   for (const Atol& wrong : {Atol{}, Atol{{{0, 1}, {0, 2}}, {1}}, Atol{{{0, 1}, {0, 2}}, {1, 0}},
@@ -279,9 +279,9 @@ TEST(Kernels, RefuseWhatMakesNoSenseAndStop) {
   }
   expect_error(ErrorKind::usage, "power: found",
                [&] { weighted_gaussian_kernel(one, one, {.power = -1}); });
-  expect_error(ErrorKind::bad_data, "expected finite ones",
+  expect_error(ErrorKind::bad_data, "expected finite bars",
                [&] { scale_space_kernel(one, endless, 1); });
-  expect_error(ErrorKind::bad_data, "expected finite ones",
+  expect_error(ErrorKind::bad_data, "expected finite bars",
                [&] { weighted_gaussian_kernel(endless, one); });
   test::StoppedContext context;
   expect_error(ErrorKind::cancelled, "stopped", [&] { scale_space_kernel(one, one, 1, context); });

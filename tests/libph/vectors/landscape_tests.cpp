@@ -117,7 +117,7 @@ TEST(Landscapes, RefuseWhatMakesNoSenseAndStop) {
   expect_error(ErrorKind::bad_data, "expected a finite birth", [&] {
     landscape(Bars{{0, -kInfinity, 5}}, grid, 2, out);
   });
-  expect_error(ErrorKind::bad_data, "expected finite ones", [&] {
+  expect_error(ErrorKind::bad_data, "expected finite bars", [&] {
     exact_landscape(Bars{{0, 1, kInfinity}}, 2);
   });
   std::mt19937 random(3);

@@ -265,13 +265,13 @@ TEST(Images, RefuseWhatMakesNoSenseAndStop) {
   expect_error(ErrorKind::usage, "births: found a range", of({{nan, 1, 2}, {0, 1, 2}}, 1, 1));
   expect_error(ErrorKind::usage, "expected 6", of({{0, 1, 2}, {0, 1, 3}}, 1, 1));
   expect_error(ErrorKind::bad_data, "a weight below infinity", of(frame, 1, 1000));
-  expect_error(ErrorKind::bad_data, "expected finite ones", [&] {
+  expect_error(ErrorKind::bad_data, "expected finite bars", [&] {
     persistence_image(Bars{{0, 1, kInfinity}}, frame, 1, 1, out);
   });
-  expect_error(ErrorKind::bad_data, "expected finite ones", [&] {
+  expect_error(ErrorKind::bad_data, "expected finite bars", [&] {
     entropy(Bars{{0, 1, kInfinity}});
   });
-  expect_error(ErrorKind::bad_data, "expected finite ones", [&] {
+  expect_error(ErrorKind::bad_data, "expected finite bars", [&] {
     longest_lengths(Bars{{0, 1, kInfinity}}, out);
   });
   expect_error(ErrorKind::usage, "expected 38", [&] { statistics(one, out); });

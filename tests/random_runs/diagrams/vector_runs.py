@@ -52,7 +52,7 @@ def expected_refusal(task):
         return [64, 65], ["at most 1e+100", "finite", "--count", "--infinite"]
     endless = [bar for bar in used if math.isinf(bar[1]) or math.isinf(bar[2])]
     if endless and task.infinite == "error":
-        return [65], ["expected finite ones", "--count"]
+        return [65], ["expected finite bars", "--count"]
     if isinstance(task.infinite, float) and any(b == -INF or b > task.infinite for _, b, _ in endless):
         return [64, 65], ["--infinite", "--count"]
     if task.infinite == "keep" and task.kind == "landscape" and any(b == -INF for _, b, _ in endless):
