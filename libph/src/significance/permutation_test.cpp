@@ -81,7 +81,7 @@ std::pmr::vector<double> powers_of(const DistanceMatrix& distances, double power
       if (std::isinf(distance))
         throw Error(ErrorKind::bad_data,
                     fmt::format("permutation_test: diagrams {} and {}: found an infinite distance, "
-                                "expected finite ones; leave out bars that never die",
+                                "expected finite distances; leave out bars that never die",
                                 j, i));
       powers.push_back(power == 1 ? distance / unit : std::pow(distance / unit, power));
     }

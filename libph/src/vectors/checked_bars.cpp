@@ -37,7 +37,7 @@ std::vector<Bar> checked_bars(std::span<const Bar> bars, Ends allowed, std::stri
       throw Error(ErrorKind::bad_data,
                   fmt::format("{}: found a bar [{}, {}), expected {}; {} leaves it out",
                               mark_place(function), bar.birth, bar.death,
-                              allowed == Ends::finite ? "finite ones" : "a finite birth",
+                              allowed == Ends::finite ? "finite bars" : "a finite birth",
                               mark(Setting::infinite, "drop")));
     checked.push_back(bar);
   }
@@ -84,7 +84,7 @@ FiniteBars finite_bars(std::span<const Bar> bars, const InfiniteBars& rule) {
       }
       if (rule.rule == Rule::refuse || !has_birth)
         throw Error(ErrorKind::bad_data,
-                    fmt::format("{}: found a bar [{}, {}), expected finite ones{}",
+                    fmt::format("{}: found a bar [{}, {}), expected finite bars{}",
                                 mark_place("finite_bars"), bar.birth, bar.death,
                                 rule.rule == Rule::cap ? "; a cap is for deaths" : ""));
       if (bar.birth > rule.cap)
