@@ -8,7 +8,7 @@
 
 namespace ph {
 
-/// The data that an alpha complex computes only when they are first needed.
+/// Data of an alpha complex that are computed only when they are first needed.
 struct Alpha::Lazy {
   explicit Lazy(const RunContext& made_with) : context(&made_with) {}
   void set(ExplicitComplex complex) {
@@ -19,7 +19,8 @@ struct Alpha::Lazy {
   std::mutex mutex;
   std::atomic<const ExplicitComplex*> ready{nullptr};
   std::optional<ExplicitComplex> listed;
-  SimplexList vertices;  ///< the vertices of each cell of `listed`; only for a periodic space
+  /// The vertices of each cell of `listed`; empty unless the space is periodic.
+  SimplexList vertices;
   const RunContext* context;
 };
 

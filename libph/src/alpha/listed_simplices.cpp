@@ -8,7 +8,7 @@ namespace {
 
 using std::uint32_t;
 
-/// A simplex by its sites, from the last to the first.
+/// A simplex, given by its sites in descending order.
 struct Listed {
   std::array<uint32_t, 4> descending;
   double value;
@@ -113,14 +113,16 @@ class CellList {
  private:
   static constexpr Index kMissing = -1;
 
-  /// @param boundary the rows of its facets, in the order of the vertices that the facets lack.
-  /// @return the row of the cell.
+  /// Adds a cell if it enters. @param boundary the rows of the facets of the cell, in the order of
+  /// the vertices that the facets lack.
+  /// @return the row of the cell, or kMissing if it does not enter.
   Index add_cell(std::span<const uint32_t> sites, double value, std::span<const Index> boundary) {
     std::array<Index, 4> points{};
     for (std::size_t i = 0; i < sites.size(); ++i) points[i] = cells_.sites.input[sites[i]];
     return add(std::span(points).first(sites.size()), value, boundary);
   }
-  /// @param points the points in the order of their sites; the function sorts them.
+  /// Adds a cell if it enters. @param points its points in the order of their sites; the function
+  /// sorts them.
   Index add(std::span<Index> points, double value, std::span<const Index> boundary) {
     if (!enters_(value)) return kMissing;
     ticker_.tick();
@@ -191,7 +193,8 @@ class CellList {
   SimplexList& vertices_;
   Ticker ticker_;
   BoundaryMatrix matrix_;
-  std::pmr::vector<bool> is_turned_;  // by row: true if sorting the points took an odd permutation
+  // For each row: true if sorting the points was an odd permutation.
+  std::pmr::vector<bool> is_turned_;
   // The rows of vertices by site, of edges by number, and of facets by usual name.
   std::pmr::vector<Index> vertex_rows_, edge_rows_, facet_rows_;
 };

@@ -16,7 +16,7 @@ using Enters = std::function<bool(double)>;
 ExplicitComplex list_simplices(const AlphaCells& cells, const Enters& enters,
                                const RunContext& context);
 
-/// Lists the cells of a periodic space, which their vertices do not determine.
+/// Lists the cells of a periodic space, where several cells may have the same vertices.
 /// @param vertices receives the vertices of each cell, ascending.
 ExplicitComplex list_cells(const AlphaCells& cells, const Enters& enters, SimplexList& vertices,
                            const RunContext& context);
@@ -27,10 +27,10 @@ int top_dim(const AlphaCells& cells, const Enters& enters);
 /// The number of simplices in each dimension, including copies of sites and the edges to them.
 std::vector<std::size_t> simplex_counts(const AlphaCells& cells);
 
-/// Lists the simplices of a triangulation with values other than alpha: the square of the radius of
-/// the smallest ball around a simplex, or of half its longest edge. Such values need not be equal
-/// within an interval.
-/// @param value any value except alpha. Precondition: no weights.
+/// Lists the simplices of a triangulation with values other than alpha: the squared radius of the
+/// smallest ball around a simplex, or the square of half the length of its longest edge. Simplices
+/// of the same interval may have different values of this kind.
+/// @param value any value except alpha. Precondition: the points have no weights.
 ExplicitComplex list_with_other_values(const AlphaCells& cells, AlphaOptions::Value value,
                                        const Enters& enters, const RunContext& context);
 

@@ -76,8 +76,9 @@ AlphaCells alpha_cells(PointsView points, std::span<const double> weights,
 
 namespace {
 
-/// @throws Error (bad_data) unless the squares of coordinates below 2^exponent, and of their last
-/// places, are within the range of doubles.
+/// Checks that the squares of coordinates below 2^exponent are within the range of doubles, and
+/// that so are the squares of the last places of such coordinates. @throws Error (bad_data) if they
+/// are not.
 void check_squares(int exponent) {
   constexpr int most = 511, least = -458;  // 2^-916, with room for 106 more binary places
   if (exponent >= least && exponent <= most) return;  // mutant: alpha-exponent

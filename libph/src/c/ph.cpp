@@ -158,8 +158,9 @@ void watched(const ph_options& options, std::stop_source& stop, const Compute& c
   computed.get();
 }
 
-/// Runs `compute` and turns exceptions into a status. @param compute(options, context) computes the
-/// result and stores it. @param out where `compute` stores the result; must not be NULL.
+/// Runs `compute` and turns exceptions into a status. @param compute called with (options,
+/// context): computes the result and stores it. @param out where `compute` stores the result; must
+/// not be NULL.
 template <class Out, class Compute>
 ph_status run(const ph_options* given, const Out* out, const Compute& compute) {
   return guarded([&] {
@@ -177,7 +178,7 @@ ph_status run(const ph_options* given, const Out* out, const Compute& compute) {
   });
 }
 
-/// Computes one barcode. @param make(options, context) makes the complex.
+/// Computes one barcode. @param make called with (options, context): makes the complex.
 template <class Make>
 ph_status barcode_of(const ph_options* given, ph_barcode** out, const Make& make) {
   return run(given, out, [&](const ph_options& options, const RunContext& context) {
@@ -186,7 +187,8 @@ ph_status barcode_of(const ph_options* given, ph_barcode** out, const Make& make
   });
 }
 
-/// Computes the barcodes of a batch. @param make(i, options, context) makes the complex of input i.
+/// Computes the barcodes of a batch. @param make called with (i, options, context): makes the
+/// complex of input i.
 template <class Make>
 ph_status barcodes_of(const ph_options* given, std::size_t count, ph_barcode** out,
                       const Make& make) {

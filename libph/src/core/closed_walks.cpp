@@ -17,7 +17,7 @@ namespace {
   throw Error(ErrorKind::usage, fmt::format("chain: found {}, expected {}", found, expected));
 }
 
-/// Appends the numbers of the start of an edge, then of its end.
+/// Appends the numbers of the start of an edge, then the numbers of its end.
 void append_ends(const InputCell& edge, std::span<const Index> periods,
                  std::pmr::vector<Index>& ends) {
   const std::span<const Index> numbers = edge.numbers;
@@ -167,8 +167,9 @@ class Decomposition {
     place_.assign(vertices(), kNowhere);
   }
 
-  /// The edge by which a path leaves a vertex, which differs from the edge by which it came. Edges
-  /// with coefficient `wanted` are preferred, because using them removes much of the chain at once.
+  /// The edge by which a path leaves the vertex `from`. It differs from `came_by`, the edge by
+  /// which the path arrived. Edges with coefficient `wanted` are preferred, because using them
+  /// removes much of the chain at once.
   const Arc* way_on(std::uint32_t from, std::uint32_t came_by, std::int64_t wanted) {
     std::size_t& first = next_[from];
     while (first < offsets_[from + 1] && left_[arcs_[first].edge] == 0) ++first;
@@ -207,8 +208,8 @@ class Decomposition {
     place_[start] = kNowhere;
   }
 
-  /// Cuts off the end of the path, which is closed, and adds it as a walk with the coefficient of
-  /// its first edge.
+  /// Moves the end of the path, which is a closed walk, to the walks found. The walk gets the
+  /// coefficient of its first edge.
   void cut_off(std::size_t begin) {
     const std::int64_t a = directed(path_[begin].edge, path_[begin].from);
     Walk walk{{}, a};
@@ -231,13 +232,14 @@ class Decomposition {
   std::size_t size_, arity_ = 1;
   Ticker ticker_;
   std::pmr::vector<Index> numbers_;  // the numbers of the start and of the end of each edge
-  std::pmr::vector<std::uint32_t> first_of_;  // by vertex: an end of an edge that lies there
+  std::pmr::vector<std::uint32_t> first_of_;  // for each vertex: one of the edge ends at the vertex
   std::pmr::vector<std::uint32_t> tail_, head_;
   std::pmr::vector<std::int64_t> left_;  // remaining coefficient of each edge, from 0 to p - 1
   std::pmr::vector<std::size_t> offsets_;
   std::pmr::vector<Arc> arcs_;
-  std::pmr::vector<std::size_t> next_;     // by vertex: the first arc that may have something left
-  std::pmr::vector<std::uint32_t> place_;  // by vertex: its position on the path
+  // For each vertex: its first arc whose edge may have a nonzero coefficient.
+  std::pmr::vector<std::size_t> next_;
+  std::pmr::vector<std::uint32_t> place_;  // for each vertex: its position on the path
   std::pmr::vector<Step> path_;
   std::vector<Walk> found_;
 };

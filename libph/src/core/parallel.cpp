@@ -19,8 +19,8 @@ class Pieces {
          const std::function<void(std::size_t, std::size_t)>& work)
       : count_(count), piece_(piece), context_(context), work_(work) {}
 
-  /// Takes and computes pieces until none is left. @param on_piece called after each piece with its
-  /// size.
+  /// Takes pieces and computes them until none is left. @param on_piece called after each piece
+  /// with the size of the piece.
   template <class OnPiece>
   void take_all(OnPiece&& on_piece) {
     try {

@@ -60,7 +60,7 @@ class Random {
 };
 
 /// Moves `count` randomly drawn elements to the front, without replacement (Fisher and Yates). If
-/// `count` is the size, this is a random order.
+/// `count` is the size of the range, the result is a random order of all elements.
 template <class Range>
 void draw(Range& elements, std::size_t count, Random& random) {
   for (std::size_t i = 0; i < count; ++i)

@@ -23,7 +23,7 @@ namespace {
 }
 
 // Large blocks are mapped by the system and given back to it when they are freed. The C library
-// would keep them in its heap, which gets holes that no budget counts.
+// would keep them in its heap, where freed blocks leave holes that no budget counts.
 bool is_large(std::size_t bytes, std::size_t alignment) {
   return bytes >= std::size_t{1} << 20 && alignment <= kSmallestPage;
 }

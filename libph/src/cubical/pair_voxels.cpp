@@ -18,7 +18,8 @@ namespace ph::cubical {
 
 namespace {
 
-constexpr double kBytesOfVoxel = 8;  // for a star and a node of a graph, or for two ranks
+// A voxel needs a star and a node of a graph, or two ranks, of 4 bytes each.
+constexpr double kBytesOfVoxel = 8;
 
 bool has_few_axes(const CubicalImage& grid) { return GridShape::count_axes(grid) <= 3; }
 
@@ -107,7 +108,7 @@ void pair_by_components(const StarGrid& grid, const BarRequest& wanted, const Ru
 // layers are processed to find out.
 bool fits(const CubicalImage& voxels, const RunContext& context) {
   if (!StarGrid::can_hold(voxels)) return false;
-  // Bytes per voxel, and per critical cell.
+  // In bytes: the least and the most memory per voxel, and the memory per critical cell.
   constexpr double least = kBytesOfVoxel, most = 168, per_cell = 64;
   const LayeredImage image(voxels);
   const auto size = static_cast<double>(image.size());

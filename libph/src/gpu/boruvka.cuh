@@ -11,26 +11,29 @@
 
 namespace ph::gpu {
 
-/// The two rows at the ends of an edge as one number, which orders edges of equal length.
+/// A number made of the two rows at the ends of an edge, for sorting edges of equal length.
 PH_DEVICE std::uint64_t ends_of(std::uint32_t a, std::uint32_t b) {
   return a > b ? std::uint64_t{a} << 32 | b : std::uint64_t{b} << 32 | a;
 }
 
 /// The data of Boruvka that kernels use.
 struct BoruvkaView {
-  std::uint32_t* component;  // by position: a position that represents its component
-  Nearest* nearest;          // by position: the last answer; if there is none or it is in the same
-                             // component now, the nearest foreign point is farther
-  std::uint64_t* bounds;     // by component: bits of an upper bound for the length of its best edge
-  std::uint64_t* ends;       // by component: ends of its first edge of that length
-  std::uint32_t* takes;      // by component: the position that has its best edge
-  std::uint32_t* joins;      // by component: the component that it becomes part of
+  // For each position: the position that represents its component.
+  std::uint32_t* component;
+  // For each position: the last answer. If the answer has no point, or a point that is in the same
+  // component by now, the nearest foreign point is at least as far away as the answer says.
+  Nearest* nearest;
+  // For each component: the bits of an upper bound for the length of its best edge.
+  std::uint64_t* bounds;
+  std::uint64_t* ends;   // for each component: the ends of its first edge of that length
+  std::uint32_t* takes;  // for each component: the position that has its best edge
+  std::uint32_t* joins;  // for each component: the component that it becomes part of
 
   PH_DEVICE bool knows(std::uint32_t p) const {
     const std::uint32_t q = nearest[p].position;
     return q != kNone && component[q] != component[p];
   }
-  /// True if an edge at p may be better than the best edge that its component knows.
+  /// True if an edge at p may be better than the best edge that is known for the component of p.
   PH_DEVICE bool is_worth_asking(std::uint32_t p) const {
     if (knows(p)) return false;
     const double bound = of_bits(bounds[component[p]]);
@@ -59,7 +62,7 @@ class Search {
  public:
   virtual ~Search() = default;
   virtual std::uint32_t size() const = 0;
-  /// On the device, by position: the row of the point in the caller's order.
+  /// On the device: for each position, the row of its point in the caller's order.
   virtual const std::uint32_t* rows() const = 0;
   /// Must be called whenever the components have changed.
   virtual void see(const BoruvkaView& v) = 0;

@@ -87,8 +87,8 @@ PH_DEVICE double distance_of_square(double square, const double* x, const double
   }
   return largest * std::sqrt(sum);
 }
-/// An upper bound for the computed squares of all distances <= d, between two points or between a
-/// point and a box.
+/// An upper bound for the computed squares of all distances up to d, between two points or between
+/// a point and a box.
 PH_DEVICE double reach_of(double d, int axes) {
   return std::fmax(d * d * (1 + 4e-16 * (axes + 8)), kLeastPlainSquare);
 }
@@ -96,7 +96,7 @@ PH_DEVICE double reach_of(double d, int axes) {
 /// The nearest point of another component, and its distance.
 struct Nearest {
   double distance;
-  std::uint32_t position;  ///< kNone if there is none up to that distance
+  std::uint32_t position;  ///< kNone if no such point lies within `distance`
 };
 
 }  // namespace ph::gpu

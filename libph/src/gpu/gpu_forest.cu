@@ -41,7 +41,7 @@ void require_device(std::size_t points, std::size_t axes) {
 struct Cloud {
   std::uint32_t size;
   int axes;
-  thrust::device_vector<double> coordinates;  // by row
+  thrust::device_vector<double> coordinates;  // indexed by row
 
   explicit Cloud(PointsView points)
       : size(static_cast<std::uint32_t>(points.rows())),

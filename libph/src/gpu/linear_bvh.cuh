@@ -63,10 +63,11 @@ template <int Axes>
 struct BvhView {
   static constexpr std::uint32_t kMixed = kNone;
   static constexpr std::uint32_t kFew = 8;  // points that are compared one by one
-  static constexpr int kMostLevels = 160;   // bits of a code and of a position
+  static constexpr int kMostLevels = 160;   // enough for the bits of a code and of a position
 
   struct Node {
-    std::uint32_t other_end;  // of the range of its positions; the node's own number is one end
+    // The first or the last of the node's positions; the node's own number is at the other end.
+    std::uint32_t other_end;
     // The last position of the left child, which is also the number of that child.
     std::uint32_t split;
     PH_DEVICE std::uint32_t first(std::uint32_t self) const {
@@ -78,11 +79,11 @@ struct BvhView {
   };
 
   std::uint32_t size;         // number of points, at least 2
-  const double* coordinates;  // by position
-  const std::uint32_t* rows;  // by position: the number of the point in the caller's order
+  const double* coordinates;  // indexed by position
+  const std::uint32_t* rows;  // for each position: the number of the point in the caller's order
   Node* nodes;
-  double* boxes;          // by node: the smallest coordinates, then the largest
-  std::uint32_t* labels;  // by node: the component of all its points, or kMixed
+  double* boxes;          // for each node: the smallest coordinates, then the largest
+  std::uint32_t* labels;  // for each node: the component of all its points, or kMixed
 
   PH_DEVICE const double* point(std::uint32_t p) const {
     return coordinates + std::size_t{p} * Axes;

@@ -14,7 +14,7 @@ namespace {
 
 struct PairPoints {
   std::uint32_t size;
-  const double* coordinates;  // by position, which is the row
+  const double* coordinates;  // indexed by position, which is the row
   int axes;
 
   PH_DEVICE const double* point(std::uint32_t p) const {
@@ -31,11 +31,11 @@ inline constexpr int kSlab = 16;  // axes that a block holds at a time
 inline constexpr int kSide = 16;  // threads per side
 inline constexpr int kEach = kTile / kSide;
 
-/// Finds, for a block of 64 asked points (grid axis x), the nearest foreign points within one of
-/// several ranges that cover all points (grid axis y). Points are sorted by component: a pair of
-/// tiles that lie in the same component is skipped.
+/// Finds the nearest foreign points of a block of 64 asked points (grid axis x). Each block
+/// searches one of several ranges that together cover all points (grid axis y). Points are sorted
+/// by component, and a pair of tiles that lie in the same component is skipped.
 /// @param order all points, sorted by component. @param answers receives an answer for each asked
-/// point and range.
+/// point and each range.
 __global__ void __launch_bounds__(kSide* kSide)
     nearest_of_tiles(PairPoints points, const std::uint32_t* asked, std::uint32_t asked_count,
                      const std::uint32_t* order, std::uint32_t range,
@@ -70,7 +70,7 @@ __global__ void __launch_bounds__(kSide* kSide)
         of_others[tx][row] = k < points.axes ? points.point(b)[k] : 0;
       }
       __syncthreads();
-      // Entries beyond the last axis are 0 and therefore change no sum.
+      // Entries beyond the last axis are 0 and therefore do not change the sums.
 #pragma unroll
       for (int s = 0; s < kSlab; ++s) {
         double x[kEach], y[kEach];

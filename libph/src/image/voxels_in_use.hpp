@@ -6,8 +6,8 @@
 
 namespace ph {
 
-/// Exists while voxels are read in random order. The pages of a file that are read stay in memory
-/// during this time, and the budget counts them; the destructor lets them leave the memory.
+/// Keeps the pages of an image file in memory while voxels are read in random order. The budget
+/// counts these pages; the destructor lets them leave the memory.
 class VoxelsInUse {
  public:
   /// @param image the image; the data that it points to must outlive this object. @throws Error

@@ -10,10 +10,12 @@
 
 namespace ph::alpha {
 
-/// Inserts all sites. The search for the place of a site starts near the site inserted before.
-/// @param insert called with (site, starting place); returns the starting place for the next site.
-/// @param bytes returns the number of bytes that CGAL holds, which must be claimed because CGAL
-/// does not allocate from the budget.
+/// Inserts all sites. The search for the place of a site starts near the site that was inserted
+/// before it.
+/// @param insert inserts one site: it is called with the site and a place at which the search
+/// starts, and returns the place at which the search for the next site starts.
+/// @param bytes returns the number of bytes that CGAL holds. These bytes must be claimed, because
+/// CGAL does not allocate from the budget.
 template <class Start, class Insert, class Bytes>
 void insert_sites(const Sites& sites, const RunContext& context, MemoryClaim& claim,
                   Insert&& insert, Bytes&& bytes) {
@@ -28,9 +30,9 @@ void insert_sites(const Sites& sites, const RunContext& context, MemoryClaim& cl
   }
 }
 
-/// Sorts the vertices of a cell, and moves the cells across its facets along with them; missing
-/// vertices (kNone) come last. Branchless, because all orders are equally likely and branches would
-/// be mispredicted. @return true if the permutation is odd.
+/// Sorts the vertices of a cell in ascending order, where missing vertices (kNone) come last, and
+/// reorders the cells across its facets in the same way. Branchless, because all orders are equally
+/// likely and branches would be mispredicted. @return true if the permutation is odd.
 inline bool sort_cell(std::array<std::uint32_t, 4>& vertices,
                       std::array<std::uint32_t, 4>& across) {
   std::array<std::uint64_t, 4> both;
@@ -55,9 +57,10 @@ inline bool sort_cell(std::array<std::uint32_t, 4>& vertices,
   return is_odd;
 }
 
-/// Replaces the number of the cell across each facet by the name of the facet in that cell.
+/// For each facet of each cell, replaces the number of the cell on the other side by the name that
+/// the facet has in that cell.
 inline void name_facets(Triangulation& result) {
-  // Marks an entry that has been replaced already, by the earlier of the two cells.
+  // This bit marks an entry that was already replaced when the first of the two cells was visited.
   constexpr std::uint32_t named = std::uint32_t{1} << 31;
   auto& across = result.across;
   for (std::uint32_t t = 0; t < across.size(); ++t)
@@ -76,8 +79,8 @@ inline void name_facets(Triangulation& result) {
     }
 }
 
-/// Copies the cells of a CGAL triangulation in the order of their smallest vertices, which is an
-/// order in space.
+/// Copies the cells of a CGAL triangulation, sorted by their smallest vertices, so that cells near
+/// each other in space are near in memory.
 /// @tparam Handle a handle of a cell. The function overwrites info() of the cells; info() of a
 /// vertex is its site.
 /// @param for_each_cell calls a function with the handle of each cell and true if the cell is

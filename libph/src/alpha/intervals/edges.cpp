@@ -12,19 +12,20 @@ namespace {
 
 using std::uint32_t;
 
-/// An edge found in a cell: the upper 32 bits hold its larger end, the lower 32 bits hold 8 · cell
-/// + its number in the cell.
+/// An edge found in a cell: the upper 32 bits hold the larger end of the edge, and the lower 32
+/// bits hold 8 · cell + the number of the edge in this cell.
 using Found = std::uint64_t;
 uint32_t larger_end(Found found) { return static_cast<uint32_t>(found >> 32); }
 std::size_t cell_of(Found found) { return static_cast<uint32_t>(found) >> 3; }
 unsigned edge_of(Found found) { return static_cast<unsigned>(found & 7); }
 
-/// Calls a function with each edge of a cell for which neither of the cells across the two facets
-/// at the edge comes earlier. Of the cells around an edge, the first always qualifies, and another
-/// one hardly ever does.
+/// Calls a function with each edge of a cell, unless one of the two cells that share a facet with
+/// this cell at that edge has a smaller number. Of the cells around an edge, the first always
+/// reports it, and another one hardly ever does.
 template <class Use>
 void for_each_first(const Triangulation& triangulation, std::size_t cell, Use&& use) {
-  unsigned later = 0;  // facets across which lies a later cell, no cell, or the cell itself
+  // Facets with a later cell, no cell or the cell itself on the other side, as bits.
+  unsigned later = 0;
   for (unsigned k = 0; k < 4; ++k)
     later |= triangulation.across[cell][k] >= 4 * cell ? 1U << k : 0U;
   for (unsigned e = 0; e < 6; ++e) {
@@ -38,13 +39,13 @@ NumberedEdges::Ends frame_of(const Images& images, std::size_t cell, unsigned ed
   const auto& places = images.of_cell[cell];
   return {places[kEdgeEnds[edge][0]], places[kEdgeEnds[edge][1]]};
 }
-/// The translation from the smaller end to the larger one: edges with the same ends are equal if
-/// their translations are.
+/// The translation from the smaller end of an edge to the larger one. Two edges with the same ends
+/// are equal if these translations are equal.
 Translation translation_of(const Images& images, const NumberedEdges::Ends& frame) {
   return images.translation[frame[1]] - images.translation[frame[0]];
 }
 
-/// Removes duplicates. @return how many are left.
+/// Removes duplicates from the edges with the same smaller end. @return the number of edges left.
 std::size_t keep_first(std::span<Found> of_vertex, const Images* images) {
   std::ranges::sort(of_vertex);
   std::size_t kept = 0;

@@ -44,10 +44,11 @@ struct NumberedEdges {
     return to(larger, begin[smaller], begin[smaller + 1]);
   }
 
-  RawVector<Ends> ends;                   ///< ascending; a loop has the same vertex twice
-  std::pmr::vector<std::uint32_t> begin;  ///< by smaller end: the first edge; at the end, size()
-  /// By cell: its edges in the order of kEdgeEnds. Only for a periodic space, where several edges
-  /// may have the same ends.
+  RawVector<Ends> ends;  ///< ascending; a loop has the same vertex twice
+  /// For each site: its first edge as the smaller end; then size() as a last entry.
+  std::pmr::vector<std::uint32_t> begin;
+  /// For each cell: its edges in the order of kEdgeEnds. Empty unless the space is periodic,
+  /// because only then several edges may have the same ends.
   RawVector<std::array<std::uint32_t, 6>> of_cell;
 
  private:
@@ -64,8 +65,8 @@ struct NumberedEdges {
 };
 
 /// Numbers the edges of n cells in O(n log n). Uses threads.
-/// @param images the images in a periodic space, which receive the frames of the edges; otherwise
-/// null.
+/// @param images the images of the sites if the space is periodic, otherwise null. The function
+/// stores the frames of the edges in them.
 NumberedEdges number_edges(const Triangulation& triangulation, std::size_t sites, Images* images,
                            const RunContext& context);
 

@@ -5,10 +5,10 @@
 
 namespace ph::alpha {
 
-/// The vertices of a cell, facet or edge as indices into `places`, for computations with
-/// coordinates: the sites themselves or, in a periodic space, images of the sites that are near
-/// each other. All frames of a simplex are translates of each other, and differences of coordinates
-/// are exact.
+/// Gives the vertices of a cell, facet or edge as indices into `places`, for computations with
+/// coordinates. If the space is periodic, these are images of the sites that are near each other;
+/// otherwise they are the sites. All frames of a simplex are translates of each other, and
+/// differences of coordinates are exact.
 class Frames {
  public:
   /// @param images null if the space is not periodic. Both arguments must outlive the frames.

@@ -12,16 +12,17 @@
 namespace ph::alpha {
 
 /// Values of Edge::up other than the name of a facet.
-inline constexpr std::uint32_t kCritical = kNone;   ///< paired with nothing: it is its own interval
-inline constexpr std::uint32_t kJoins = kNone - 1;  ///< paired with a vertex: it joins components
-inline constexpr std::uint32_t kUnknown = kNone - 2;  ///< its interval is not known yet
+inline constexpr std::uint32_t kCritical = kNone;  ///< not paired: the edge alone is an interval
+/// Paired with a vertex: the edge joins components.
+inline constexpr std::uint32_t kJoins = kNone - 1;
+inline constexpr std::uint32_t kUnknown = kNone - 2;  ///< the interval of the edge is not known yet
 
 struct Edge {
   double value;
-  std::uint32_t up;  ///< the facet that it is paired with, or one of the constants above
+  std::uint32_t up;  ///< the facet with which the edge is paired, or one of the constants above
 };
 
-/// A facet that is paired with nothing inside its interval.
+/// A facet that is not paired with any simplex of its interval.
 struct CriticalFacet {
   double value = 0;
   std::uint32_t code = 0;  ///< its usual name
@@ -36,12 +37,12 @@ inline std::array<std::uint32_t, 3> facet_of(const std::array<std::uint32_t, 4>&
 
 /// The alpha filtration of a triangulation, with the pairs of its intervals.
 ///
-/// The simplices fall into intervals [L, U] of one alpha value each: the faces of U that contain L.
-/// The smallest sphere of U is empty, and L has the vertices of U such that the centre of the
-/// sphere does not lie beyond the opposite facet (Bauer & Edelsbrunner, The Morse theory of Čech
-/// and Delaunay complexes, 2017). Let a be the first vertex of U outside L. Each simplex without a
-/// is paired with the same simplex plus a. The remaining simplices are critical: they are intervals
-/// of one simplex.
+/// The simplices are divided into intervals [L, U]. An interval consists of the faces of U that
+/// contain L, which all have the same alpha value. The smallest sphere of U is empty. L consists of
+/// the vertices of U for which the centre of this sphere does not lie beyond the opposite facet
+/// (Bauer & Edelsbrunner, The Morse theory of Čech and Delaunay complexes, 2017). Let a be the
+/// first vertex of U outside L. Each simplex of the interval without a is paired with the same
+/// simplex plus a. If L = U, the interval is a single simplex, which is *critical*.
 ///
 /// Values are squared radii, in the units of the sites. All simplices of an interval have the same
 /// value, and no face has a larger value than a coface.
@@ -90,45 +91,48 @@ struct AlphaCells {
   bool is_periodic = false;                ///< true if the triangulation is a Delta-complex
   std::pmr::vector<std::uint32_t> hidden;  ///< points of the input that belong to no cell
   Triangulation triangulation;
-  RawVector<double> cell_values;           ///< by cell of the triangulation
-  RawVector<std::uint8_t> beyond;          ///< by cell: a bit for each vertex outside L
+  RawVector<double> cell_values;  ///< indexed by cell of the triangulation
+  /// For each cell: a bit for each of its vertices that is outside the L of its interval.
+  RawVector<std::uint8_t> beyond;
   std::pmr::vector<CriticalFacet> facets;  ///< sorted by code
-  // Only in dimension 3:
+  // The next two members are empty unless the dimension is 3.
   NumberedEdges edges;
-  RawVector<Edge> edge_states;  ///< by edge
-  // Only with weights:
-  RawVector<double> vertex_values;  ///< by site; if empty, all are 0
-  /// By site: the edge that it is paired with (below dimension 3, the other end of that edge), or
-  /// kCritical.
+  RawVector<Edge> edge_states;  ///< indexed by edge
+  // The next three members are empty unless the points have weights.
+  RawVector<double> vertex_values;  ///< indexed by site; if empty, all are 0
+  /// For each site: the edge with which it is paired (below dimension 3, the other end of that
+  /// edge), or kCritical if it is paired with none.
   RawVector<std::uint32_t> vertex_up;
-  /// In dimension 3, by site that is paired with an edge: a facet of its interval; kNone if the
-  /// interval consists of the site and the edge.
+  /// In dimension 3, for each site that is paired with an edge: a facet of the interval of the site
+  /// and the edge, or kNone if the interval has no other simplices.
   RawVector<std::uint32_t> vertex_facet;
 };
 
-/// The triangulation of the points with values and intervals, computed on threads.
-/// @param period one length per axis, or empty; an axis of length 0 does not close up.
-/// @throws Error as sites_of and fold_points do, and (resource, cancelled).
+/// Triangulates the points, and computes the values and the intervals of the simplices. Uses
+/// threads.
+/// @param period the length of the space along each axis, or empty if no axis is periodic. A length
+/// of 0 means that the axis is not periodic.
+/// @throws Error as sites_of and fold_points do; Error (resource, cancelled).
 AlphaCells alpha_cells(PointsView points, std::span<const double> weights,
                        std::span<const double> period, const RunContext& context);
 
-/// The value of a facet, given by either of its names. O(log of the number of critical facets).
+/// The value of a facet, given by either of its names. Takes O(log n) for n critical facets.
 double facet_value(const AlphaCells& cells, std::uint32_t code);
-/// The value of a facet, in O(1). @param critical the entry of a critical facet; null for any other
-/// facet.
+/// The value of a facet. Takes O(1). @param critical the entry of a critical facet; null for any
+/// other facet.
 double facet_value(const AlphaCells& cells, std::uint32_t code, const CriticalFacet* critical);
 /// The entry of the facet with this name, or null if it is not critical.
 const CriticalFacet* critical_facet(const AlphaCells& cells, std::uint32_t code);
 
 class Frames;
 
-/// Find the values and the intervals of a triangulation: of dimension 3, with edges that are
-/// numbered already, or of dimension 1 or 2.
+/// Finds the values and the intervals of a triangulation of dimension 3, whose edges must be
+/// numbered already. The second function does the same in dimensions 1 and 2.
 void find_intervals_of_space(AlphaCells& cells, const Frames& frames, const RunContext& context);
 void find_intervals_of_plane(AlphaCells& cells, const Frames& frames, const RunContext& context);
 
-/// Rounding may give an interval a smaller value than one of its faces has. Raises such intervals
-/// to the value of the face until none is left.
+/// Raises each interval whose value is smaller than the value of one of its faces, which rounding
+/// may cause, to the value of that face, and repeats this until there is no such interval.
 void make_monotone(AlphaCells& cells, const Frames& frames, const RunContext& context);
 
 /// Asserts the lemmas behind the pairing in builds with assertions; does nothing in other builds.

@@ -10,7 +10,8 @@ namespace {
 
 using std::uint32_t;
 
-/// Finds the intervals of a triangulation of dimension 1 or 2 by their upper ends.
+/// Finds the intervals of a triangulation of dimension 1 or 2, each when it visits the upper end of
+/// the interval.
 class PlaneIntervals {
  public:
   PlaneIntervals(AlphaCells& cells, const Frames& frames, const RunContext& context)
@@ -31,7 +32,7 @@ class PlaneIntervals {
   }
 
  private:
-  // For collinear sites, where edges are the cells.
+  // Handles one edge of collinear sites, where edges are the cells.
   void find_last_edge(std::size_t t) {
     const auto& ends = cells_.triangulation.cells[t];
     const auto& at = frames_.of_cell(t);

@@ -10,10 +10,10 @@ namespace {
 
 using std::uint32_t;
 
-/// Finds the intervals of a triangulation of dimension 3 by their upper ends: tetrahedra, then
-/// triangles, then edges with an empty smallest sphere. The smallest sphere of a facet is not empty
-/// if the centre of an adjacent tetrahedron lies beyond the facet; the same holds for an edge and
-/// an adjacent triangle.
+/// Finds the intervals of a triangulation of dimension 3. It visits their upper ends, which are the
+/// simplices with an empty smallest sphere: first tetrahedra, then triangles, then edges. The
+/// smallest sphere of a facet is not empty if the centre of an adjacent tetrahedron lies beyond the
+/// facet; the same holds for an edge and an adjacent triangle.
 class SpaceIntervals {
  public:
   SpaceIntervals(AlphaCells& cells, const Frames& frames, const RunContext& context)
@@ -59,13 +59,14 @@ class SpaceIntervals {
     assert(state.up == kUnknown);  // a simplex lies in one interval
     state = {value, facet};
   }
-  // Pairs an edge with the late vertex that enters with it.
+  // Pairs an edge with the late vertex (see VertexIntervals) that enters with it.
   void pair_vertex(uint32_t vertex, uint32_t edge, double value, uint32_t facet = kNone) {
     pair_edge(edge, kJoins, value);
     vertices_.pair(vertex, edge, value, facet);
   }
 
-  // @param code the usual name of the facet. @param other its other name, or kNone.
+  // Finds the interval of a facet. @param code the usual name of the facet. @param other the other
+  // name of the facet, or kNone if it has only one.
   void find_facet(uint32_t code, uint32_t other) {
     const uint32_t cell = code >> 2;
     const auto& places = kFacetPlaces[code & 3];
@@ -95,14 +96,14 @@ class SpaceIntervals {
     }
   }
 
-  // Pairs a facet that lies in the interval of a tetrahedron. @param code its name in that
-  // tetrahedron.
+  // Pairs a facet that lies in the interval of a tetrahedron. @param code the name of the facet in
+  // that tetrahedron.
   void give_to_tetrahedron(uint32_t code) {
     const uint32_t cell = code >> 2;
     // mutant: alpha-facet-of-edge
     const unsigned beyond = cells_.beyond[cell], first = lowest(beyond), k = code & 3;
     const double value = cells_.cell_values[cell];
-    if (k != first) {  // paired with the edge that lacks both vertices
+    if (k != first) {  // paired with the edge that has neither vertex k nor vertex `first`
       const unsigned rest = 0b1111U & ~(1U << first) & ~(1U << k);
       pair_edge(cells_.edge_between(cell, lowest(rest), lowest(rest & (rest - 1))), code, value);
       return;
@@ -140,7 +141,7 @@ class SpaceIntervals {
   const Frames& frames_;
   const RunContext& context_;
   const Spheres spheres_;
-  Marks is_not_empty_;  // by edge: true for an edge whose smallest sphere is not empty
+  Marks is_not_empty_;  // for each edge: true if the smallest sphere of the edge is not empty
   VertexIntervals vertices_;
   FacetPieces critical_;
 };

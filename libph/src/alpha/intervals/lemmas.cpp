@@ -20,8 +20,8 @@ namespace {
 
 using std::uint32_t;
 
-/// All simplices of a triangulation by their vertices. They are computed anew in order to check the
-/// numbers and names that the pairing uses.
+/// All simplices of a triangulation, given by their vertices. The class computes them anew in order
+/// to check the numbers and names that the pairing uses.
 class Lemmas {
  public:
   explicit Lemmas(const AlphaCells& cells) : cells_(cells) {
@@ -51,9 +51,11 @@ class Lemmas {
   using Vertices = std::array<uint32_t, 4>;  // ascending, filled up with kNone
   struct Simplex {
     double value = 0;
-    std::vector<uint32_t> inside;  // adjacent vertices inside its smallest sphere
-    std::vector<uint32_t> beyond;  // its vertices inside the sphere of the others
-    int claims = 0;                // number of intervals of larger simplices that contain it
+    std::vector<uint32_t> inside;  // vertices of cofaces that lie inside its smallest sphere
+    // Vertices of the simplex that lie inside the smallest sphere of its other vertices.
+    std::vector<uint32_t> beyond;
+    // Number of intervals of larger simplices that contain this simplex.
+    int claims = 0;
   };
 
   static int size_of(const Vertices& of) {
@@ -104,7 +106,7 @@ class Lemmas {
   void find_intervals() {
     for (const auto& [of, simplex] : simplices_) {
       if (!simplex.inside.empty()) continue;
-      // Visits all nonempty sets of vertices that may be left out.
+      // Visits all nonempty sets of vertices that a face in the interval of `of` may lack.
       for (unsigned set = 1; set < 1U << simplex.beyond.size(); ++set) {
         Vertices member = of;
         for (std::size_t i = 0; i < simplex.beyond.size(); ++i)

@@ -23,7 +23,8 @@ class Marks {
   std::pmr::vector<std::uint8_t> marks_;
 };
 
-/// Critical facets, found by threads piece by piece, in the order of their names.
+/// Collects the critical facets that threads find piece by piece, and joins them in the order of
+/// their names.
 class FacetPieces {
  public:
   static constexpr std::size_t kPiece = 1 << 13;  // cells per piece
@@ -58,7 +59,8 @@ class VertexIntervals {
   }
   /// Marks a vertex as late, because the other end of an edge lies inside its sphere.
   void set_late(std::uint32_t v) { is_late_.set(v); }
-  /// Pairs a late vertex. @param up, facet its entries in AlphaCells::vertex_up and vertex_facet.
+  /// Pairs a late vertex with an edge. @param up,facet the entries of the vertex in
+  /// AlphaCells::vertex_up and AlphaCells::vertex_facet.
   void pair(std::uint32_t v, std::uint32_t up, double value, std::uint32_t facet = kNone) {
     assert(cells_.vertex_up[v] == kCritical);
     cells_.vertex_up[v] = up;

@@ -12,7 +12,8 @@ namespace {
 
 using std::uint32_t;
 
-/// Repairs dimensions 1 and 2, where simplices are few enough to check all of them in each pass.
+/// Repairs the values in dimensions 1 and 2, where simplices are few enough to check all of them in
+/// each pass.
 class PlaneRepair {
  public:
   PlaneRepair(AlphaCells& cells, const RunContext& context) : cells_(cells), context_(context) {}
@@ -83,7 +84,8 @@ class PlaneRepair {
   bool is_changed_ = false;
 };
 
-/// Repairs dimension 3: after an interval is raised, only its cofaces are checked.
+/// Repairs the values in dimension 3, where raising an interval leads to a check of its cofaces
+/// only.
 class SpaceRepair {
  public:
   SpaceRepair(AlphaCells& cells, const Frames& frames, const RunContext& context)
@@ -104,8 +106,9 @@ class SpaceRepair {
   }
 
  private:
-  /// An interval as seen from a cell that contains it. The bits of `upper` are the positions of the
-  /// vertices of the upper end; `beyond` has those that the lower end lacks.
+  /// An interval as seen from a cell that contains it: `upper` has a bit for the position of each
+  /// vertex of the upper end, and `beyond` has a bit for each of these vertices that the lower end
+  /// lacks.
   struct Interval {
     uint32_t cell;
     unsigned upper, beyond;
@@ -120,14 +123,15 @@ class SpaceRepair {
 
   double facet_value(uint32_t code) const { return alpha::facet_value(cells_, code); }
 
-  /// Facets with a smaller value than one of their edges, or a larger value than an adjacent cell.
+  /// The facets whose value is smaller than the value of one of their edges, or larger than the
+  /// value of an adjacent cell.
   ///
-  /// Edges are compared only with facets that lie in no cell's interval, for the following reason.
-  /// Let facet f lie in the interval of cell t, and let g be the other facet of t at an edge e of
-  /// f. If g lies in the interval as well, then so does e, and e has the value of f; otherwise f
-  /// has the value of t, which g must not exceed. It is therefore enough that e does not exceed g,
-  /// and the same argument holds for g. Radii fall strictly from f to g; the walk around e
-  /// therefore ends.
+  /// Edges are compared only with facets that do not lie in the interval of a cell. This is enough,
+  /// for the following reason. Let facet f lie in the interval of cell t, let e be an edge of f,
+  /// and let g be the other facet of t at e. If g lies in the interval of t as well, then so does
+  /// e, and e has the value of f. Otherwise f has the value of t, which the value of g must not
+  /// exceed. In that case it is enough that the value of e does not exceed the value of g, and the
+  /// same argument applies to g. The walk around e ends, because radii fall strictly from f to g.
   std::vector<uint32_t> facets_out_of_order() const {
     std::mutex mutex;
     std::vector<uint32_t> found;

@@ -65,8 +65,8 @@ double Spheres::careful_radius(const Faces& face, std::size_t count) const {
     points[i] = {scaled(p.x, origin.x), scaled(p.y, origin.y), scaled(p.z, origin.z)};
     weights[i] = DoubleDouble(std::ldexp(sites_.weight(face[i]), -2 * exponent));
   }
-  // A tetrahedron may be flat, or small compared with its weights; enough of the 106 bits must be
-  // left for a double.
+  // A tetrahedron may be flat, or small compared with its weights. Its radius is computed with 106
+  // bits only if the rounding errors still leave enough correct bits for a double.
   const Vector<DoubleDouble> u = points[0], v = points[1], normal = cross(u, v);
   // mutant: alpha-edge-size
   const double size = count == 4   ? std::abs(dot(normal, points[2]).high())
@@ -130,7 +130,7 @@ double Spheres::triangle_radius(uint32_t a, uint32_t b, uint32_t c) const {
   const P u = q - p, v = r - p, normal = cross(u, v);
   const double uu = dot(u, u), vv = dot(v, v), area = dot(normal, normal);
   const double longest = std::max(uu, vv);
-  // The relative error of the radius is the relative error of the area.
+  // The relative error of the radius is as large as the relative error of the area.
   constexpr double flat = 0x1p-20;
   if (area < flat * longest * longest || area < kSmall) return careful_radius({a, b, c}, 3);
   if (!sites_.is_weighted()) {
@@ -139,8 +139,8 @@ double Spheres::triangle_radius(uint32_t a, uint32_t b, uint32_t c) const {
   }
   const double U = uu + (sites_.weights[a] - sites_.weights[b]);
   const double V = vv + (sites_.weights[a] - sites_.weights[c]);
-  // Uses differences of vectors, because differences of numbers as large as U² vv would lose too
-  // many digits.
+  // Squares a difference of vectors. A difference of numbers as large as U² vv would lose too many
+  // digits.
   const P n = U * v - V * u;
   return dot(n, n) / (4 * area) - sites_.weights[a];
 }

@@ -11,8 +11,9 @@ namespace ph::alpha {
 /// weights, is orthogonal to them.
 struct Sphere {
   double squared_radius = 0;
-  /// Bit k is set if the centre lies strictly beyond the facet opposite vertex k, by the sign of
-  /// its barycentric coordinate. Vertex k then lies inside the smallest sphere of that facet.
+  /// Bit k is set if the centre lies strictly beyond the facet opposite vertex k, that is, if the
+  /// barycentric coordinate of the centre at vertex k is negative. Vertex k then lies inside the
+  /// smallest sphere of that facet.
   std::uint8_t beyond = 0;
 };
 
@@ -32,8 +33,8 @@ class Spheres {
   using Faces = std::array<std::uint32_t, 4>;
   /// True if vertex k of the first `count` lies inside the smallest sphere of the others.
   bool lies_inside(const Faces& face, std::size_t count, std::size_t k) const;
-  /// A bit for each negative value. Values are known up to `bound`; exact arithmetic decides the
-  /// sign of a value closer to 0.
+  /// Returns a bit for each value, which is set if the value is negative. Values have errors up to
+  /// `bound`; exact arithmetic decides the sign of a value that is closer to 0.
   template <std::size_t N>
   std::uint8_t signs(const std::array<double, N>& values, double bound, const Faces& face) const;
   double careful_radius(const Faces& face, std::size_t count) const;

@@ -14,8 +14,8 @@
 
 namespace ph::alpha {
 
-/// A reduced column: the coefficient of its pivot. The terms below the pivot, with edges given by
-/// number, follow the object in memory.
+/// A reduced column. The object itself holds the coefficient of the pivot; the terms below the
+/// pivot, in which edges are given by number, follow the object in memory.
 template <Field K>
 class Column {
  public:

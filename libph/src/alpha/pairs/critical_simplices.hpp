@@ -8,11 +8,12 @@
 
 namespace ph::alpha {
 
-/// A critical simplex: its value, and its number, whose meaning depends on the list it is in.
+/// A critical simplex, with its value and its number. The meaning of the number depends on the list
+/// that contains the simplex.
 struct Ranked {
   double value;
   std::uint32_t number;
-  std::uint32_t code = kNone;  ///< its name if it is a facet
+  std::uint32_t code = kNone;  ///< the name of the simplex if it is a facet
 };
 using RankedSimplices = std::pmr::vector<Ranked>;
 
@@ -55,7 +56,7 @@ inline std::array<std::uint32_t, 2> ends_of(const AlphaCells& cells, const Ranke
   }
   return {cells.triangulation.cells[edge.number][0], cells.triangulation.cells[edge.number][1]};
 }
-/// Prefetches what `ends_of` reads; call it some time before.
+/// Prefetches the data that `ends_of` reads. To be called some time before `ends_of`.
 inline void prefetch_ends(const AlphaCells& cells, const Ranked& edge) {
   if (cells.dim() == 3)
     __builtin_prefetch(&cells.edges.ends[edge.number]);

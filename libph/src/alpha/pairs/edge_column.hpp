@@ -36,7 +36,7 @@ class EdgeColumn {
   using Element = typename K::Element;
   using Term = Entry<EdgeName, K>;
 
-  /// @param joins by edge: true if it joins components.
+  /// @param joins for each edge: true if the edge joins components.
   EdgeColumn(const AlphaCells& cells, const SimplexSet& joins, const K& field,
              const RunContext& context)
       : cells_(cells),

@@ -24,8 +24,8 @@ class EdgeForest {
  public:
   using Element = typename K::Element;
 
-  /// @param joins by edge: true if it is critical and joins components. (Edges that are paired with
-  /// late vertices belong to the forest as well.)
+  /// @param joins for each edge: true if the edge is critical and joins components. (Edges that are
+  /// paired with late vertices belong to the forest as well.)
   EdgeForest(const AlphaCells& cells, const SimplexSet& joins, const K& field,
              const RunContext& context)
       : cells_(cells),
@@ -124,7 +124,7 @@ class EdgeForest {
   const AlphaCells& cells_;
   const K& field_;
   const RunContext& context_;
-  std::pmr::vector<Up> up_;  // by vertex: the edge towards the root of its tree
+  std::pmr::vector<Up> up_;  // for each vertex: the edge towards the root of its tree
   std::pmr::vector<AtVertex> heap_;
 };
 

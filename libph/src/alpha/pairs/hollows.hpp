@@ -77,8 +77,8 @@ class Hollows {
     const std::uint32_t other = cells_.across(code);
     return other == kNone ? outside_ : other >> 2;
   }
-  /// Prefetches data of three upcoming facets. Each access depends on the result of another; a
-  /// facet is therefore prefetched in three steps: first as `soon`, later as `sooner`, then as
+  /// Prefetches data of three upcoming facets. Each memory access depends on the result of the one
+  /// before, so a facet is prefetched in three steps: first as `soon`, later as `sooner`, then as
   /// `next`.
   void prefetch(std::uint32_t soon, std::uint32_t sooner, std::uint32_t next) const {
     __builtin_prefetch(&cells_.triangulation.across[soon >> 2]);

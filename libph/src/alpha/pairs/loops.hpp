@@ -30,9 +30,9 @@ class Loops {
   using KeptColumn = Column<K>;
 
  public:
-  /// @param joins by edge: true if it is critical and joins components.
-  /// @param column_of by critical facet: its position in the order of the filtration, or kNone if
-  /// it joins hollows. Both must outlive the loops.
+  /// @param joins for each edge: true if the edge is critical and joins components.
+  /// @param column_of for each critical facet: its position in the order of the filtration, or
+  /// kNone if the facet joins hollows. `joins` and `column_of` must outlive this object.
   Loops(const AlphaCells& cells, const SimplexSet& joins, std::span<const std::uint32_t> column_of,
         const K& field, const RunContext& context)
       : cells_(cells),
@@ -167,7 +167,8 @@ class Loops {
   const RunContext& context_;
   const SimplexSet& joins_;
   const std::span<const std::uint32_t> column_of_;
-  std::pmr::vector<const KeptColumn*> owners_;  // by edge: the column with this pivot, or null
+  // For each edge: the column whose pivot it is, or null.
+  std::pmr::vector<const KeptColumn*> owners_;
   std::mutex mutex_;
   std::pmr::vector<std::uint32_t> essential_;  // critical facets whose boundaries are reduced to 0
   std::vector<std::unique_ptr<Worker>> workers_;

@@ -43,7 +43,7 @@ void pair_space(const AlphaCells& cells, const K& field, const RunContext& conte
                 AlphaBars& bars) {
   const bool wants_loops = bars.wants(1) || (cells.is_periodic && bars.wants(2));
   const bool wants_hollows = wants_loops || bars.wants(2) || (cells.is_periodic && bars.wants(3));
-  SimplexSet joins(cells.edge_states.size(), false, &context.memory);  // by edge
+  SimplexSet joins(cells.edge_states.size(), false, &context.memory);  // indexed by edge
   if (wants_loops || bars.wants(0)) {
     const RankedSimplices edges = ranked_edges(cells, context);
     pair_components(cells, edges, field, context, bars,

@@ -40,8 +40,8 @@ void check_periods(PointsView points, std::span<const double> period) {
                               axis, period[axis]));
 }
 
-/// A power of two such that `size` is between 2^50 and 2^51 times as large; for tiny sizes, the
-/// smallest positive double.
+/// Returns the power of two that is contained between 2^50 and 2^51 times in `size`; for tiny
+/// sizes, the smallest positive double.
 double unit_of(double size) {
   constexpr int bits = 51, least = -1074;
   return std::ldexp(1.0, std::max(std::ilogb(size) + 1 - bits, least));

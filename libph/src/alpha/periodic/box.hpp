@@ -9,11 +9,12 @@
 
 namespace ph::alpha {
 
-/// A box whose opposite faces are glued along some axes, which are *closed*. It starts at 0.
+/// A box whose opposite faces are glued together along some axes; these axes are called *closed*.
+/// Along each axis, the box starts at 0.
 struct Box {
-  std::array<double, 3> period{};  ///< by axis; 0 if the axis is open
-  /// At least the diagonal of the bounding box of the points inside. No empty sphere extends beyond
-  /// the box by more than twice this size.
+  std::array<double, 3> period{};  ///< indexed by axis; 0 if the axis is open
+  /// An upper bound for the diagonal of the bounding box of the points in the box. No empty sphere
+  /// extends beyond the box by more than twice this size.
   double size = 0;
 
   bool is_closed(std::size_t axis) const { return period[axis] > 0; }
@@ -26,19 +27,20 @@ struct Box {
   }
 };
 
-/// Points, moved into their box.
+/// The points after each has been moved into the box by entire periods.
 struct Folded {
   Points points;
   Box box;
 };
 
-/// Takes the coordinates of closed axes modulo their periods. Coordinates and periods are first
-/// rounded to multiples of a power of two, at most 2^-51 of the size of the box; adding entire
-/// periods then needs no rounding. Numbers that already are such multiples do not change, and open
-/// axes do not change.
-/// @param period one per axis, 0 if the axis is open. At least one axis is closed.
-/// @throws Error (usage) unless there is one period per axis, none of them negative or infinite;
-/// Error (bad_data) on a period that rounds to 0, and on sizes beyond the range of doubles.
+/// Takes the coordinates along closed axes modulo the periods. Coordinates and periods are first
+/// rounded to multiples of a power of two, which changes them by at most 2^-51 of the size of the
+/// box; no rounding is needed to add entire periods afterwards. Numbers that already are such
+/// multiples do not change, and neither do coordinates along open axes.
+/// @param period the period of each axis; 0 if the axis is open. At least one axis is closed.
+/// @throws Error (usage) unless there is one period per axis, and none of them is negative or
+/// infinite; Error (bad_data) if a period rounds to 0, or if the size is beyond the range of
+/// doubles.
 Folded fold_points(PointsView points, std::span<const double> weights,
                    std::span<const double> period);
 

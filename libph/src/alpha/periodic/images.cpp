@@ -13,7 +13,7 @@ struct Range {
   std::int64_t from = 0, to = 0;
 };
 
-/// The multiples of the period that can be added to x without leaving the margin around the box.
+/// The range of the numbers k for which x + k · period lies in the box or within `margin` of it.
 Range periods_within(double x, double period, double margin) {
   if (period == 0) return {};
   const double before = std::floor((margin + x) / period);

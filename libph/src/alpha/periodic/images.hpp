@@ -34,9 +34,9 @@ constexpr std::array<std::int64_t, 3> periods_of(Translation translation) {
   return periods;
 }
 
-/// A periodic space unrolled around its box: the sites and their images. Each image is a *place*.
-/// Places are numbered by site and then by translation, and translating all places leaves this
-/// order unchanged.
+/// A periodic space unrolled around its box. It consists of *places*, which are the sites and their
+/// images. Places are numbered by site and then by translation. Translating all places by the same
+/// vector leaves their order unchanged.
 struct Images {
   explicit Images(std::pmr::memory_resource* memory)
       : places(memory),
@@ -47,12 +47,12 @@ struct Images {
         of_edge(memory) {}
 
   Sites places;                          ///< the images as sites of a space that is not periodic
-  std::pmr::vector<std::uint32_t> site;  ///< by place
-  std::pmr::vector<Translation> translation;  ///< by place
-  /// By site: its first place. The last entry is the number of places.
+  std::pmr::vector<std::uint32_t> site;  ///< indexed by place
+  std::pmr::vector<Translation> translation;  ///< indexed by place
+  /// For each site: its first place. The last entry is the number of places.
   std::pmr::vector<std::uint32_t> begin;
-  /// By cell of the quotient and, in dimension 3, by edge: its frame, which consists of places of
-  /// the vertices that are near each other.
+  /// The frame of each cell of the quotient and, in dimension 3, of each edge. A frame consists of
+  /// places of the vertices that are near each other.
   RawVector<std::array<std::uint32_t, 4>> of_cell;
   RawVector<std::array<std::uint32_t, 2>> of_edge;
 
@@ -64,11 +64,11 @@ struct Images {
   }
 };
 
-/// Returns, for a point, how far beyond the closed faces of the box its images are wanted.
+/// For a point: how far beyond the closed faces of the box images of the point are wanted.
 using Margin = std::function<double(const Vector<double>&)>;
 
 /// Lists all images of the sites up to their margins.
-/// @throws Error (resource) if there are too many; (cancelled).
+/// @throws Error (resource) if there are too many images; Error (cancelled).
 Images images_within(const Sites& sites, const Box& box, const Margin& margin_of,
                      const RunContext& context);
 

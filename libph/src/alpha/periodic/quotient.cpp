@@ -49,8 +49,9 @@ class Quotient {
  private:
   Translation translation(uint32_t place) const { return images_.translation[place]; }
 
-  /// How far a cell is translated away from the box: on each axis, the median of the translations
-  /// of its vertices. Undoing this translation turns all translates of a cell into the same cell.
+  /// The translation by which a cell lies away from the box: on each axis, the median of the
+  /// translations of its vertices. All translates of a cell become the same cell when this
+  /// translation is undone.
   Translation home(const Cell& cell) const {
     const Translation first = translation(cell[0]);
     bool is_same = true;
@@ -86,7 +87,7 @@ class Quotient {
     begin_ = cells_by_vertex(result_.cells, sites_, &context_.memory);
   }
 
-  /// The number of the kept cell that an unrolled cell is a translate of, or kNone if there is
+  /// The number of the kept cell that is a translate of an unrolled cell, or kNone if there is
   /// none.
   uint32_t number_of(uint32_t t) const {
     if (number_[t] != kNone) return number_[t];
@@ -104,13 +105,15 @@ class Quotient {
     return kNone;
   }
 
-  /// True if the affine hull of a facet contains the direction of each closed axis.
+  /// True if a facet is parallel to each closed axis, that is, its affine hull contains the
+  /// direction of the axis.
   bool is_along_closed_axes(uint32_t t, std::size_t facet) const {
     std::size_t closed = 0;
     for (std::size_t axis = 0; axis < 3; ++axis) closed += box_.is_closed(axis) ? 1U : 0U;
     const std::size_t dim = size_ - 2;
     if (closed > dim) return false;
-    // The projection along the closed axes must lower the dimension of the facet by `closed`.
+    // If the affine hull contains these directions, the projection along them lowers the dimension
+    // of the facet by `closed`.
     std::array<Vector<double>, 3> seen;
     std::size_t count = 0;
     for (std::size_t i = 0; i < size_; ++i) {
@@ -200,11 +203,12 @@ class Quotient {
   const Images& images_;
   const Box& box_;
   const RunContext& context_;
-  const std::size_t size_;             // vertices per cell
-  const std::size_t sites_;            // number of sites
-  std::pmr::vector<uint32_t> number_;  // by unrolled cell: its number, or kNone
-  std::pmr::vector<uint32_t> begin_;   // by site: the kept cells whose smallest vertex it is
-  std::pmr::vector<uint32_t> kept_;    // the unrolled cells that are kept, by number
+  const std::size_t size_;   // vertices per cell
+  const std::size_t sites_;  // number of sites
+  // For each unrolled cell: the number of the kept cell that is a translate of it, or kNone.
+  std::pmr::vector<uint32_t> number_;
+  std::pmr::vector<uint32_t> begin_;  // for each site: the kept cells whose smallest vertex it is
+  std::pmr::vector<uint32_t> kept_;   // the unrolled cells that are kept, by number
   Triangulation result_;
   RawVector<Cell> of_cell_;
 };

@@ -6,21 +6,21 @@
 namespace ph::alpha {
 
 /// Turns the triangulation of sites and images into a triangulation of the periodic space. It keeps
-/// one cell of each class of translates, and glues two cells where translates of them are
+/// one cell of each class of translates, and glues two cells together if translates of them are
 /// neighbours. The vertices of the result are sites; a cell may have a site several times, and
 /// `images.of_cell` receives the places of its vertices.
 ///
 /// Returns true if the result is the Delaunay triangulation of the periodic space, and false if
 /// there were too few images around the box. The following conditions, all of which are checked or
 /// always true, guarantee this:
-/// - Each facet has on either side a cell that is a translate of a kept cell, and the two cells
-///   name each other. Otherwise the plane of the facet contains the directions of all closed axes,
-///   and all images lie on one side of it. Unrolled, the cells therefore cover the space the same
-///   number of times everywhere.
-/// - The cells at one of the sites are the cells around it in the triangulation, which cover it
-///   once.
+/// - On either side of a facet there is a cell that is a translate of a kept cell, and the two
+///   cells name each other. The only exceptions are facets whose plane contains the directions of
+///   all closed axes, with all images on one side of the plane. Unrolled, the cells therefore cover
+///   the space the same number of times everywhere.
+/// - At one of the sites, the kept cells are the cells around it in the unrolled triangulation,
+///   which cover its surroundings once.
 /// - Two cells that share a facet are neighbours in a Delaunay triangulation. A triangulation that
-/// is locally Delaunay is Delaunay (Delaunay 1934).
+///   is locally Delaunay is Delaunay (Delaunay 1934).
 /// - Each site has a cell, except sites that are already hidden in the box.
 /// @param triangulation the triangulation of `images.places`; replaced if true is returned.
 bool take_quotient(Triangulation& triangulation, Images& images, const Box& box,

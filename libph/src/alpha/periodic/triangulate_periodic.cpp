@@ -14,7 +14,7 @@ std::array<double, 3> coordinates(const Vector<double>& p) { return {p.x, p.y, p
 
 /// A margin that is likely to be enough if the sites are uniformly distributed. In the interior it
 /// is the radius of the largest empty sphere plus the usual size of a cell. Near the end of an open
-/// axis, only a cap of an empty sphere lies among the sites; the flatter the cap, the wider it is,
+/// axis, only a cap of an empty sphere lies among the sites. The flatter this cap, the wider it is,
 /// up to the diagonal of the box along its closed axes.
 class LikelyMargin {
  public:
@@ -34,7 +34,7 @@ class LikelyMargin {
       measure *= extent;
       ++dim_;
     }
-    constexpr double few = 8;  // found by trial: hardly any run must start again
+    constexpr double few = 8;  // found by trial; with this value, hardly any run must start again
     inside_ = std::min(around_, std::pow(measure / count * (std::log(count) + few), 1.0 / dim_));
   }
   double inside() const { return inside_; }
@@ -59,8 +59,9 @@ class LikelyMargin {
   int dim_ = 0;
 };
 
-/// The smallest margin that gives at least one site an image along each closed axis. Without these
-/// images, the affine hull of the listed images may be smaller than that of all images.
+/// The smallest margin for which at least one site has an image along each closed axis. With a
+/// smaller margin, the affine hull of the listed images may be smaller than the affine hull of all
+/// images.
 double least_margin(const Sites& sites, const Box& box) {
   double least = 0;
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -79,7 +80,7 @@ double least_margin(const Sites& sites, const Box& box) {
 
 PeriodicTriangulation triangulate_periodic(const Sites& sites, const Box& box,
                                            const RunContext& context) {
-  constexpr double more = 1 + 1e-9;  // more than rounding can remove
+  constexpr double more = 1 + 1e-9;  // adds more than rounding can remove
   const double most = 2 * more * box.size;
   LikelyMargin margin(sites, box);
   const double least = more * least_margin(sites, box);

@@ -66,8 +66,9 @@ SurfaceMesh surface(const AlphaCells& cells, HasCell&& has_cell, HasFacet&& has_
   return mesh;
 }
 
-/// Collects the critical simplices that enter, their faces, all simplices of the intervals of these
-/// faces, the faces of those simplices, and so on (Bauer & Edelsbrunner 2017).
+/// Collects simplices step by step: the critical simplices that enter, their faces, all simplices
+/// of the intervals of these faces, the faces of those simplices, and so on (Bauer & Edelsbrunner
+/// 2017).
 class Wrap {
  public:
   Wrap(const AlphaCells& cells, const RunContext& context)
@@ -78,7 +79,7 @@ class Wrap {
         has_edge_(cells.edge_states.size(), false, &context.memory) {}
 
   bool has_cell(uint32_t t) const { return has_cell_[t]; }
-  /// @param code the usual name of the facet.
+  /// True if the facet was collected. @param code the usual name of the facet.
   bool has_facet(uint32_t code) const { return has_facet_[code]; }
 
   template <class Enters>

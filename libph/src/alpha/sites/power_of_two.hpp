@@ -6,7 +6,8 @@
 
 namespace ph::alpha {
 
-/// x · 2^exponent: the same as std::ldexp, but faster for exponents where one product suffices.
+/// Returns x · 2^exponent as std::ldexp does, but faster for exponents where one multiplication
+/// suffices.
 inline double times_power_of_two(double x, int exponent) {
   constexpr int bias = 1023, most = 1000;
   if (exponent < -most || exponent > most) return std::ldexp(x, exponent);

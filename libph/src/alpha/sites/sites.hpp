@@ -29,23 +29,24 @@ struct Sites {
 
   int coordinates = 0;               ///< coordinates per point: 1, 2 or 3; missing ones are 0
   int exponent = 0;                  ///< a point of the input is 2^exponent times its site
-  RawVector<Vector<double>> points;  ///< by site
-  std::pmr::vector<double> weights;  ///< by site, or empty if no point has a weight
-  /// By site: the point of the input; if there are copies, the first of them.
+  RawVector<Vector<double>> points;  ///< indexed by site
+  std::pmr::vector<double> weights;  ///< indexed by site, or empty if no point has a weight
+  /// For each site: the point of the input at this place; if there are several, the first of them.
   std::pmr::vector<std::uint32_t> input;
   /// The other copies: each point of the input that is a copy, with its site.
   std::pmr::vector<std::array<std::uint32_t, 2>> copies;
-  /// All sites in an order that keeps neighbours in space close together; empty if their numbers
-  /// are such an order.
+  /// All sites in an order that keeps neighbours in space close together; empty if the numbers of
+  /// the sites already give such an order.
   std::pmr::vector<std::uint32_t> path;
 };
 
-/// @param points points of R¹, R² or R³. @param weights one per point, or none. If points at the
-/// same place have different weights, the heaviest becomes the site and the others are its copies.
-/// @throws Error (usage) on points of another space, and if there is not one weight per point;
-///         Error (bad_data) on numbers that are not finite, and on coordinates that differ too much
-///         in magnitude; Error (resource, cancelled).
-/// @param largest a magnitude that must be within the range of scaled numbers as well.
+/// Makes sites of the points. @param points points of R¹, R² or R³. @param weights one weight per
+/// point, or none. If points at the same place have different weights, the heaviest becomes the
+/// site and the others are its copies.
+/// @throws Error (usage) if the points are in another space, or if the number of weights is not the
+/// number of points; Error (bad_data) if a number is not finite, or if coordinates differ too much
+/// in magnitude; Error (resource, cancelled).
+/// @param largest a magnitude for which the scaled numbers must also be within range.
 Sites sites_of(PointsView points, std::span<const double> weights, const RunContext& context,
                double largest = 0);
 

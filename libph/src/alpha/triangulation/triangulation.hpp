@@ -20,9 +20,10 @@ namespace ph::alpha {
 /// The vertices of a cell ascend. A face therefore has its vertices in the same order in each cell,
 /// and the positions of vertices determine the signs in boundaries.
 ///
-/// In a periodic space it is a Delta-complex: a cell may have a vertex several times, but each
-/// other face only once; faces with the same vertices may be different. Equal vertices are in the
-/// order of their places (periodic/images.hpp), which also is the same in each cell.
+/// In a periodic space, the triangulation is a Delta-complex: a cell may have a vertex several
+/// times, but each other face only once, and different faces may have the same vertices. Equal
+/// vertices are sorted by their places (periodic/images.hpp); this order is the same in each cell
+/// as well.
 struct Triangulation {
   explicit Triangulation(std::pmr::memory_resource* memory)
       : cells(memory), across(memory), is_reversed(memory) {}
@@ -31,14 +32,14 @@ struct Triangulation {
 
   int dim = -1;  ///< dimension of the affine hull; -1 if there is no site
   RawVector<std::array<std::uint32_t, 4>> cells;  ///< vertices, ascending, then kNone
-  /// By facet: its name in the cell on the other side, or kNone if there is none.
+  /// For each facet: its name in the cell on the other side, or kNone if there is no such cell.
   RawVector<std::array<std::uint32_t, 4>> across;
   /// True if the ascending vertices of a cell are oriented against those of the other cells (dim 2
   /// and 3).
   RawVector<std::uint8_t> is_reversed;
 };
 
-/// @throws Error (resource, cancelled).
+/// Triangulates the sites. @throws Error (resource, cancelled).
 Triangulation triangulate(const Sites& sites, const RunContext& context);
 
 /// Removes the sites that belong to no cell; only for sites with weights.

@@ -30,7 +30,7 @@ bool is_inside(std::span<const WeightedSite> others, const WeightedSite& site);
 bool are_collinear(const std::array<Vector<double>, 3>& points);
 
 /// The squared radius of the smallest sphere through two to four sites or, with weights, orthogonal
-/// to them. Correctly rounded except for the last bit, however flat the sites lie; at most the
+/// to them. It is correct except for the last bit, however flat the sites lie, and at most the
 /// largest double.
 double exact_squared_radius(std::span<const WeightedSite> sites);
 

@@ -29,7 +29,7 @@ std::size_t round_up(std::size_t bytes, std::size_t page) {
 }  // namespace
 
 std::size_t mapped_size(std::size_t bytes) {
-  constexpr std::size_t nearly = 5;  // at most a fifth of a block is unused
+  constexpr std::size_t nearly = 5;  // only if at most a fifth of the block stays unused
   static const auto page = static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
   const std::size_t huge = round_up(bytes, kHugePage);
   return huge - bytes > bytes / nearly ? round_up(bytes, page) : huge;

@@ -12,11 +12,11 @@ void prefer_huge_pages(void* block, std::size_t bytes);
 /// No machine has smaller pages; mapped blocks are aligned to this size.
 constexpr std::size_t kSmallestPage = 4096;
 
-/// The memory that a block of `map_pages` takes: complete pages, and complete huge pages if the
-/// block nearly fills them.
+/// The memory that a block of `map_pages` takes. It consists of complete pages, or of complete huge
+/// pages if the block nearly fills them.
 std::size_t mapped_size(std::size_t bytes);
-/// Maps a block of pages, and uses huge pages as far as the block fills them: this means few page
-/// faults, and random reads miss the address cache less often.
+/// Maps a block of pages, and uses huge pages as far as the block fills them. Huge pages cause
+/// fewer page faults, and random reads miss the address cache less often.
 /// @throws std::bad_alloc
 void* map_pages(std::size_t bytes);
 /// Gives a block of `map_pages` back to the system.

@@ -23,9 +23,10 @@ class CellComponents {
   using Name = CellGrid::Name;
   enum class Graph { of_vertices, of_top_cells };
 
-  /// Takes 4 bytes per node.
+  /// Allocates 4 bytes per node.
   CellComponents(const CellGrid& grid, Graph graph, const RunContext& context);
 
+  /// Joins components across bridges, in the order given.
   /// @param bridges edges or facets in no known pair, in the order of the filtration; the function
   /// removes the bridges that join components.
   /// @param on_merge called with (bridge, node that dies); the node is nothing if both components
@@ -40,7 +41,8 @@ class CellComponents {
   // The number of the node that contains these coordinates; the two parts of the outside come last.
   std::uint32_t number(const CellGrid::Coordinates& x) const;
   std::uint32_t cell_of(std::uint32_t number) const;
-  /// The node that is `steps` steps from a cell in a direction: two from a node, one from a bridge.
+  /// The node to which `steps` steps lead in a direction from a cell. Two steps lead from a node to
+  /// the next node; one step leads from a bridge to a node.
   std::uint32_t beyond(std::uint32_t cell, const CellGrid::Coordinates& x, int direction,
                        int steps) const;
   std::array<std::uint32_t, 2> ends(std::uint32_t bridge) const;

@@ -67,7 +67,7 @@ class CellPairing {
   CellGrid& grid_;
   CellSink& sink_;
   const RunContext& context_;
-  CriticalNames left_;  // by dimension
+  CriticalNames left_;  // indexed by dimension
 };
 
 }  // namespace

@@ -61,7 +61,7 @@ class BoundaryColumn {
   using Terms = std::pmr::vector<Term>;
 
   // Replaces a cell that has been removed by the rest of the boundary of its killer. @return true
-  // if there is a killer inside the star.
+  // if the cell has a killer inside its star.
   bool replace(const Term& term) {
     const std::uint32_t cell = CellGrid::cell(term.cell);
     const CellMark mark = grid_.mark(cell);
@@ -69,7 +69,8 @@ class BoundaryColumn {
     CellGrid::Coordinates x = grid_.coordinates(cell);
     const int direction = mark.direction();
     const auto axis = static_cast<std::size_t>(direction / 2);
-    // The incidence of the cell in its killer; the cell is the lower end if the killer lies above.
+    // This is the incidence of the cell in its killer. If the killer lies above the cell, the cell
+    // is the lower end of the killer.
     bool is_negative = direction % 2 != 0;
     for (std::size_t k = 0; k < axis; ++k) is_negative = is_negative != (x[k] % 2 != 0);
     const std::uint32_t killer = grid_.beside(cell, x[axis], direction);

@@ -71,7 +71,7 @@ class BoundaryReduction {
   std::span<const Name> names_;  // names of the columns
   const K& field_;
   const RunContext& context_;
-  FlatMap<const Column*> owners_;  // by row; null if the row is not a pivot
+  FlatMap<const Column*> owners_;  // indexed by row; null if the row is not a pivot
   Reduction reduction_;
 };
 

@@ -11,8 +11,9 @@ namespace ph::cubical {
 /// @tparam rank_bits the number of bits that hold the rank of a direction in a star.
 template <unsigned rank_bits>
 struct OrderedCell {
-  std::uint64_t key;   ///< has the same order as the value
-  std::uint64_t name;  ///< (the voxel in the entire grid, the rank of the direction in its star)
+  std::uint64_t key;  ///< has the same order as the value
+  /// High bits: the number of the voxel in the entire grid. Low bits: the rank of the direction.
+  std::uint64_t name;
 
   static OrderedCell of(double value, std::uint64_t voxel, int rank) {
     return {ordered_bits(value + 0.0), voxel << rank_bits | static_cast<std::uint64_t>(rank)};

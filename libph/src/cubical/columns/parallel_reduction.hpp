@@ -38,9 +38,9 @@ template <Field K, class Chain, class Ages = NumberedByAge>
 class ParallelReduction {
  public:
   using Term = typename Chain::Term;
-  /// A reduced column: the boundary of a cell plus the boundaries that were added to it, as far as
-  /// it was expanded. The terms below the pivot follow the object in memory, because reading the
-  /// pivot then also loads them.
+  /// A reduced column: the boundary of a cell plus the boundaries that were added to it. Cells
+  /// older than the pivot need not have been expanded. The terms below the pivot follow the object
+  /// in memory, because reading the pivot then also loads them.
   class Column {
    public:
     Column(const Term& pivot, std::uint32_t number, std::uint32_t size)
@@ -90,9 +90,9 @@ class ParallelReduction {
              [](std::uint32_t, const std::optional<Term>& pivot, Chain&) { return !pivot; });
   }
   /// Reduces the columns in `round`.
-  /// @param is_done called with (column, pivot, chain) after each search for a pivot: returns true
-  /// if this reduction is done with the column, because it is zero or moves to another part. It may
-  /// look for further pivots.
+  /// @param is_done called with (column, pivot, chain) after each search for a pivot. It returns
+  /// true if this reduction need not continue with the column, because the column is zero or moves
+  /// to another part. `is_done` may look for further pivots.
   template <class MakeChain, class AssignBoundary, class OwnerOf, class ExpectOwner, class Arrange,
             class IsDone>
   void run_some(std::pmr::vector<std::uint32_t> round, std::string_view stage, std::size_t piece,
@@ -191,7 +191,7 @@ class ParallelReduction {
     return worker;
   }
 
-  // Prepares the next step, which looks up the column that has the pivot, and prefetches for it.
+  // Prefetches the data for the next step, which looks up the column that has the pivot.
   template <class ExpectOwner>
   static bool expect(Lane& lane, ExpectOwner&& expect_owner) {
     expect_owner(lane.pivot->cell);
@@ -229,7 +229,7 @@ class ParallelReduction {
         if (lane.older != nullptr) worker.again.push_back(lane.older->number());
         return false;
       }
-      lane.chain.assign(kept->below());  // an older column has taken the pivot meanwhile
+      lane.chain.assign(kept->below());  // an older column has taken the pivot in the meantime
     }
     lane.chain.add(
         field_.negate(field_.multiply(lane.pivot->coefficient(),

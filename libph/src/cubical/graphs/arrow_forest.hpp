@@ -10,10 +10,10 @@
 
 namespace ph::cubical {
 
-/// Disjoint sets of nodes, stored as trees. At first, the parent of a node is the end of its arrow;
-/// halving paths and linking roots then change parents. Roots have numbers. DisjointSets cannot be
-/// used, because parents are computed on first use, by several threads, and a root stores its
-/// number instead of a parent.
+/// Disjoint sets of nodes, stored as trees. At first, the parent of a node is the end of its arrow.
+/// Later, parents change when paths are halved and roots are linked. Roots have numbers.
+/// DisjointSets cannot be used, because parents are computed on first use, by several threads, and
+/// a root stores its number instead of a parent.
 /// @tparam Graph has `size()` nodes and `arrow(node)`, the node that the arrow of a node points to.
 /// Arrows form no circles, and following them ends at a root.
 template <class Graph>

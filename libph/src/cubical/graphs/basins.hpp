@@ -12,8 +12,9 @@
 
 namespace ph::cubical {
 
-/// Links nodes along their arrows, except for some nodes at the border, if there are many critical
-/// cells: most arrows will then be used, and looking all of them up in order is faster.
+/// If there are many critical cells, links the nodes along their arrows, except for some nodes at
+/// the border. Most arrows will then be needed, and looking up all of them in order is faster than
+/// looking each up when it is needed.
 template <class Graph>
 void follow_inner_arrows(const StarGrid& grid, const Graph& graph, ArrowForest<Graph>& forest,
                          const RunContext& context) {
@@ -66,7 +67,7 @@ class Basins {
 
   /// The number of roots that were always there.
   std::uint32_t outer_count() const { return outer_count_; }
-  /// The cells of the other roots.
+  /// The critical cells at the roots that were not always there.
   std::pmr::vector<NumberedCell>& roots() { return roots_; }
   /// The basin of a node. Several threads may call it.
   std::uint32_t basin_of(std::uint32_t node) { return forest_.number_of_root(forest_.find(node)); }

@@ -16,7 +16,7 @@ namespace ph::cubical {
 template <bool backwards>
 class ElderForest {
  public:
-  /// @param value_of(i) the value of root i among the roots that were not always there.
+  /// @param value_of called with i: returns the value of the i-th root that was not always there.
   template <class ValueOf>
   ElderForest(std::uint32_t outer_count, std::size_t roots, ValueOf&& value_of,
               const RunContext& context)

@@ -50,7 +50,8 @@ inline std::optional<ForestStep> step_from(const StarGrid&, const TopGraph& grap
                     side < 0};
 }
 
-/// The start and the end of an edge, in the direction in which the axis runs in the input.
+/// The start and the end of an edge, where edges point in the direction in which their axis runs in
+/// the input.
 inline std::array<std::uint32_t, 2> oriented_ends(const VoxelGraph& graph, const StarCell& edge) {
   const int number = number_of(edge.direction);
   const auto [near, far] = graph.ends(edge.voxel, static_cast<std::uint32_t>(number));

@@ -15,16 +15,17 @@
 
 namespace ph::cubical {
 
-/// Persistent components of one of the two graphs of a grid. Critical cells (*bridges*) join the
-/// basins of the graph in the order of the filtration, or in reverse order (Kruskal's algorithm
-/// with the elder rule).
+/// Finds the persistent components of one of the two graphs of a grid. Critical cells (*bridges*)
+/// join the basins of the graph in the order of the filtration, or in reverse order (Kruskal's
+/// algorithm with the elder rule).
 template <class Graph>
 class ComponentPairing {
  public:
   using Place = CriticalCells::Place;
 
   /// @param bridges critical cells; only the cells listed in `bridges.order` are used.
-  /// @param wants_cells if false, `root_cell` and `bridge_cell` look up only the value.
+  /// @param wants_cells if false, `root_cell` and `bridge_cell` look up only the value of a cell,
+  /// not its direction.
   ComponentPairing(const StarGrid& grid, const Graph& graph, CriticalCells& bridges,
                    bool wants_cells, const RunContext& context)
       : grid_(grid),
@@ -39,7 +40,7 @@ class ComponentPairing {
 
   /// An upper bound for the number of bars that `run` finds.
   std::size_t most_pairs() const { return std::min(bridges_.order.size(), roots_.size()) + 2; }
-  /// Joins components, and removes the bridges that do so from the order.
+  /// Joins components, and removes the bridges that join components from the order.
   /// @param on_merge called with (bridge, root that dies); the root is null if both components were
   /// always there.
   /// @param on_survivor called with each root that never dies.

@@ -57,10 +57,11 @@ class TopGraph : public TopNodes<StarGrid, 3> {
     if (has_cubes()) return grid_.pair_cubes(v).exit(number);
     return exit_of_square(grid_.tables(v).edge_of(grid_.star(v), number));
   }
-  /// The axis along which the arrow leaves a square, given the edge that the square is paired with:
-  /// of axes 1 and 2, the axis that the edge does not have.
+  /// The axis along which the arrow leaves a square, given the edge with which the square is
+  /// paired: axis 1 or axis 2, whichever is not the axis of the edge.
   static int exit_of_square(int edge) { return 3 - axis_of_edge(edge); }
-  /// The word that tells the arrows of the top cells in a voxel's star, see `for_each_inner_arrow`.
+  /// The word, explained at `for_each_inner_arrow`, that tells the arrows of the top cells in a
+  /// voxel's star.
   template <class ExitOf>
   std::uint32_t arrow_word(unsigned cells, ExitOf&& exit_of) const;
   /// True if a top cell and the two cells beside it along the axis lie between consecutive voxels.
@@ -80,7 +81,7 @@ class TopGraph : public TopNodes<StarGrid, 3> {
 template <class Use>
 void TopGraph::for_each_inner_arrow(std::uint32_t first_row, std::uint32_t end_row,
                                     Use&& use) const {
-  std::array<std::uint32_t, 24> offset{};  // by bit
+  std::array<std::uint32_t, 24> offset{};  // indexed by bit
   for (std::uint32_t bit = 0; bit < offset.size(); ++bit) {
     const std::uint32_t u = bit / 3, a = bit % 3;
     offset[bit] = (u >> a & 1U) != 0 ? stride_[a] : 0 - stride_[a];
@@ -112,7 +113,7 @@ void TopGraph::for_each_inner_arrow(std::uint32_t first_row, std::uint32_t end_r
     if (number < first_row) continue;
     const std::uint32_t z = row.z - (layers - 1), y = row.y - 1;  // coordinates of the cells
     if (!is_inner(1, y) || (has_cubes() && !is_inner(0, z))) continue;
-    std::array<const std::uint32_t*, 4> voxels{};  // by bits 0 and 1 of u
+    std::array<const std::uint32_t*, 4> voxels{};  // indexed by bits 0 and 1 of u
     for (std::uint32_t zy = 0; zy < 4; ++zy)
       if ((zy & 1U) < layers)
         voxels[zy] = words_of(number - (layers - 1 - (zy & 1U)) * height - (1 - (zy >> 1U)));

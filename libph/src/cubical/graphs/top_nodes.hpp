@@ -40,8 +40,8 @@ class TopNodes {
   std::uint32_t outside(int part) const { return count_ + static_cast<std::uint32_t>(part); }
   /// True if nodes other than the outside were always there.
   bool has_outer_nodes() const { return !grid_.is_t_construction() && !grid_.all_enter(); }
-  /// Calls `use(node)` for the nodes that are connected because a voxel never enters: all top cells
-  /// around it.
+  /// Calls `use(node)` for the nodes that are connected because a voxel never enters, which are all
+  /// top cells around the voxel.
   template <class Use>
   void for_each_outer_node(std::uint32_t v, Use&& use) const;
   /// The nodes that a slab shares with the slab before it or after it, as in VoxelNodes: the top
@@ -68,8 +68,8 @@ class TopNodes {
   std::array<std::uint32_t, most> extent_{}, stride_{}, border_{};
 
  private:
-  /// True if there is a cell with this number: past the last voxels of an axis with ends, there is
-  /// none.
+  /// True if there is a cell with this number. There is none after the last voxels of an axis with
+  /// ends.
   bool is_cell(std::uint32_t node) const;
   std::uint32_t outside_beyond(const Way& d) const {
     if (grid_.open_axes() == 1)
@@ -144,7 +144,8 @@ template <class Use>
 void TopNodes<Grid, most>::for_each_outer_node(std::uint32_t v, Use&& use) const {
   for (unsigned above = 0; above < 1U << axes(); ++above) {
     Way d{};
-    bool is_first = true;  // the first of the directions that differ only along missing axes
+    // Of the directions that differ only along missing axes, only the first is used.
+    bool is_first = true;
     for (std::size_t a = 0; a < axes(); ++a) {
       const bool is_above = (above >> (axes() - 1 - a) & 1U) != 0;
       if (grid_.has_axis(static_cast<int>(a)))

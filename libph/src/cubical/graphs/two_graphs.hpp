@@ -7,8 +7,8 @@
 
 namespace ph::cubical {
 
-/// The lowest dimension of pairs that can give a wanted bar: periodic axes of one voxel raise
-/// dimensions.
+/// The lowest dimension of a pair that can give a wanted bar. A periodic axis with one voxel also
+/// gives bars of higher dimensions.
 inline int lowest_dim(const GridShape& grid, const BarRequest& wanted) {
   return wanted.min_dim - static_cast<int>(grid.loop_count());
 }
@@ -23,9 +23,9 @@ inline bool wants_loops(const GridShape& grid, const BarRequest& wanted) {
 inline bool wants_lowest(const GridShape& grid, const BarRequest& wanted) {
   return lowest_dim(grid, wanted) <= 0 || grid.top_dim() < 3;
 }
-/// True if bars are wanted from the graph of voxels: of H0 in the V-construction, of the second
-/// highest and the highest dimension in the T-construction. With one axis, this graph gives all
-/// bars.
+/// True if bars are wanted from the graph of voxels. It gives H0 in the V-construction, and the
+/// second highest and the highest dimension in the T-construction. With one axis, this graph gives
+/// all bars.
 inline bool wants_vertices(const GridShape& grid, const BarRequest& wanted) {
   if (grid.top_dim() < 2) return true;
   return grid.is_t_construction() ? wanted.max_dim > 0 : wants_lowest(grid, wanted);
@@ -36,8 +36,8 @@ inline bool wants_top_cells(const GridShape& grid, const BarRequest& wanted) {
   return grid.is_t_construction() ? wants_lowest(grid, wanted) : wanted.max_dim > 0;
 }
 
-/// How many of two tasks a thread takes at once: both, if a second thread would cost more than it
-/// saves.
+/// The number of tasks, out of two, that a thread takes at once: two if a second thread would cost
+/// more time than it saves, otherwise one.
 inline std::size_t tasks_at_a_time(const GridFrame& frame) {
   constexpr std::uint32_t few = 1 << 16;  // voxels
   return frame.size() < few ? 2 : 1;
@@ -48,15 +48,15 @@ inline std::size_t tasks_at_a_time(const GridFrame& frame) {
 void pair_vertices_with_edges(const StarGrid& grid, CriticalCells& edges, const RunContext& context,
                               PairSink& sink);
 
-/// Pairs facets with the top cells that kill them, by components of the dual graph: facets join top
-/// cells, youngest first, and cells that never enter and the outside were always there. Removes the
-/// paired facets from the order of `facets`, which initially lists all critical facets that kill
-/// nothing. Precondition: grid.top_dim() >= 2.
+/// Pairs facets with the top cells that kill them, by means of the components of the dual graph.
+/// There, facets join top cells, youngest first; the outside and cells that never enter were always
+/// there. Removes the paired facets from the order of `facets`, which initially lists all critical
+/// facets that kill nothing. Precondition: grid.top_dim() >= 2.
 void pair_facets_with_top_cells(const StarGrid& grid, CriticalCells& facets,
                                 const RunContext& context, PairSink& sink);
 
-/// Does both for three axes, in parallel if there are several threads. @param top_sink receives the
-/// pairs of facets and top cells.
+/// Finds the pairs in both graphs of a grid with three axes, in parallel if there are several
+/// threads. @param top_sink receives the pairs of facets and top cells.
 void pair_in_both_graphs(const StarGrid& grid, CriticalCells& edges, CriticalCells& squares,
                          const RunContext& context, PairSink& sink, PairSink& top_sink);
 

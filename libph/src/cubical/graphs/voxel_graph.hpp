@@ -24,7 +24,8 @@ class VoxelGraph : public VoxelNodes<StarGrid> {
   /// root may point to itself.
   template <class Use>
   void for_each_inner_arrow(std::uint32_t first_row, std::uint32_t end_row, Use&& use) const {
-    // For each set of edges of a star: the offset from the voxel to the end of its arrow.
+    // For each set of edges of a star: the offset from the voxel to the end of its arrow if the
+    // star has these edges.
     std::array<std::uint32_t, 1 << kEdgeCount> offset{};
     for (std::uint32_t edges = 1; edges < offset.size(); ++edges) {
       const int e = star_tables(0).arrow(edges), axis = axis_of_edge(e);
@@ -53,7 +54,7 @@ class VoxelGraph : public VoxelNodes<StarGrid> {
   }
 
  private:
-  // The node across an edge of the star of v.
+  // The node at the other end of an edge of the star of v.
   std::uint32_t across(std::uint32_t v, int edge) const {
     return or_outside(grid_.step_in_star(v, edge), kEdges[edge][axis_of_edge(edge)]);
   }

@@ -47,8 +47,8 @@ class VoxelNodes {
   }
   /// True if the slab knows the arrow of a node of a seam.
   bool is_known_here(std::uint32_t v) const { return !grid_.is_ghost(v); }
-  /// The node that a step leads to. @param u the voxel at its end, or kOutside. @param sign the
-  /// direction of the step.
+  /// The node to which a step leads. @param u the voxel at the end of the step, or kOutside. @param
+  /// sign the direction of the step.
   std::uint32_t or_outside(std::uint32_t u, int sign) const {
     if (u != Grid::kOutside) return u;
     return outside(grid_.open_axes() == 1 && sign > 0 ? 1 : 0);

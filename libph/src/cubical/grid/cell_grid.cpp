@@ -9,7 +9,7 @@
 namespace ph::cubical {
 namespace {
 
-// False for an axis that is a single vertex, or a circle of one voxel.
+// False for an axis along which the image is a single vertex, or a circle of one voxel.
 bool keeps_axis(const CubicalImage& grid, std::size_t k) {
   return grid.extents[k] > 1 || (!grid.voxels_are_vertices && !grid.periodic[k]);
 }
@@ -63,7 +63,7 @@ void CellGrid::rank_voxels(const RunContext& context) {
     if (grid_.value(v) <= grid_.limit) order_.push_back(static_cast<std::uint32_t>(v));
     ticker.tick();
   }
-  // Values are looked up in the image, which saves a third array.
+  // The values of voxels are looked up in the image, which saves a third array.
   ranks_.resize(size);
   const std::span<std::uint32_t> sorted = radix_sort_by_value(
       std::span(order_), std::span(ranks_).first(order_.size()),
@@ -88,8 +88,9 @@ void CellGrid::append_numbers(std::uint32_t cell, unsigned loops,
   for (std::size_t k = 0; k < static_cast<std::size_t>(dim_); ++k)
     numbers[base + input_axis_[k]] = Index{x[k]};
   for (std::size_t i = 0; i < loops_.size(); ++i) {
-    // On the circle, the voxel has coordinate 0 (V-construction) or 1 (T-construction); a copy with
-    // bit i set goes around it.
+    // Along such an axis, the doubled grid is a circle of one vertex (coordinate 0) and one edge
+    // (coordinate 1). The voxel is the vertex in the V-construction, and the edge in the
+    // T-construction. A copy with bit i set goes around the circle.
     numbers[base + loops_[i]] = static_cast<Index>(loops >> i & 1U);
   }
 }

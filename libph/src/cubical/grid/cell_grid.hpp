@@ -49,10 +49,10 @@ class CellMark {
   std::uint16_t bits_ = 0;
 };
 
-/// The cells of an image with any number of axes, by their positions in the doubled grid in C
-/// order. Each cell has only a mark; a cell is as old as the voxel that decides its value. Axes
-/// with one voxel are left out where possible; for those that are periodic, `CellSink` adds the
-/// missing bars.
+/// The cells of an image with any number of axes. A cell is given by its position in the doubled
+/// grid, in C order. Only a mark is stored per cell; a cell is as old as the voxel that decides its
+/// value. Axes with one voxel are left out where possible; `CellSink` adds the bars that are
+/// missing because a periodic axis is left out.
 class CellGrid {
  public:
   static constexpr int kMostAxes = 8;
@@ -86,7 +86,8 @@ class CellGrid {
   bool voxels_are_vertices() const { return grid_.voxels_are_vertices; }
   std::size_t voxel_count() const { return ranks_.size(); }
   bool all_enter() const { return order_.size() == ranks_.size(); }
-  /// The position of a voxel in the order of the voxels that enter, or kNone if it never enters.
+  /// The position of a voxel when all voxels that enter are sorted by age, or kNone if the voxel
+  /// never enters.
   std::uint32_t rank(std::uint32_t voxel) const { return ranks_[voxel]; }
   double value(Name name) const { return grid_.value(order_[name >> 32U]); }
 
@@ -102,8 +103,9 @@ class CellGrid {
     }
     return x;
   }
-  /// The cell one step from a cell whose doubled coordinate on the axis is `x`: upwards if
-  /// `direction` is 2 * axis + 1, downwards if it is 2 * axis; kNone if the step leads outside.
+  /// The cell one step from a cell: upwards if `direction` is 2 * axis + 1, downwards if it is 2 *
+  /// axis. Returns kNone if the step leads outside. @param x the doubled coordinate of the given
+  /// cell on that axis.
   std::uint32_t beside(std::uint32_t cell, std::uint32_t x, int direction) const {
     const Axis& a = axes_[static_cast<std::size_t>(direction) / 2];
     if (direction % 2 != 0) {
@@ -113,21 +115,21 @@ class CellGrid {
     if (x > 0) return cell - a.stride;
     return a.periodic ? cell + (a.length - 1) * a.stride : kNone;
   }
-  /// The coordinate on the axis of the cell that `beside` gives. Precondition: that cell is not
-  /// outside.
+  /// The doubled coordinate, on the axis of the step, of the cell that `beside` returns.
+  /// Precondition: the step does not lead outside.
   std::uint32_t next(std::uint32_t x, int direction) const {
     const std::uint32_t last = axes_[static_cast<std::size_t>(direction) / 2].length - 1;
     if (direction % 2 != 0) return x == last ? 0 : x + 1;
     return x == 0 ? last : x - 1;
   }
-  /// Precondition: the cell enters. @param x the coordinates of the cell.
+  /// The name of a cell. Precondition: the cell enters. @param x the coordinates of the cell.
   Name name(std::uint32_t cell, const Coordinates& x) const {
     return Name{ranks_[deciding_voxel(cell, x)]} << 32U | cell;
   }
   Name name(std::uint32_t cell) const { return name(cell, coordinates(cell)); }
 
-  /// Calls `visit(facet, its coordinates, incidence)`, with incidences as in
-  /// ph/detail/complex/cubical_cells.hpp.
+  /// Calls `visit(facet, its coordinates, incidence)` for each facet of a cell. Incidences are as
+  /// in ph/detail/complex/cubical_cells.hpp.
   /// @param x the coordinates of the cell.
   template <class Visit>
   void for_each_facet(std::uint32_t cell, Coordinates x, Visit&& visit) const {
@@ -144,16 +146,16 @@ class CellGrid {
       sign = -sign;
     }
   }
-  /// Calls `visit(cell, its coordinates)` for all cells of the grid whose coordinate is odd on
-  /// exactly the axes that `parity` names.
+  /// Calls `visit(cell, its coordinates)` for each cell of the grid whose coordinates are odd on
+  /// the axes that `parity` names, and even on all other axes.
   template <class Visit>
   void for_each_of_parity(const Coordinates& parity, Visit&& visit) const;
 
-  /// The number of periodic axes with one voxel. Each adds a copy of every cell, one dimension
-  /// higher, that goes around the axis.
+  /// The number of periodic axes with one voxel. For each such axis, every cell has a copy one
+  /// dimension higher that goes around the axis.
   std::size_t loop_count() const { return loops_.size(); }
   /// Appends the coordinates of a cell in the input's doubled grid. @param loops the periodic axes
-  /// with one voxel that the copy goes around, as bits.
+  /// with one voxel that the copy of the cell goes around, as bits; 0 for the cell itself.
   void append_numbers(std::uint32_t cell, unsigned loops, std::vector<Index>& numbers) const;
 
  private:

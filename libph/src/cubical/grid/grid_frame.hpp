@@ -11,8 +11,8 @@
 
 namespace ph::cubical {
 
-/// A cell, given by the voxel whose star contains it and the direction from that voxel, with its
-/// value in the order of the stars (GridFrame).
+/// A cell with its value in the order of the stars (GridFrame). It is given by the voxel whose star
+/// contains it and by the direction from that voxel.
 struct StarCell {
   std::uint32_t voxel = 0;
   Direction direction{};
@@ -137,15 +137,15 @@ class GridFrame {
   bool is_at_end(int a, std::uint32_t x) const {
     return axes_[a].exists && (x == 0 || x + 1 == axes_[a].extent || is_wrapped(a, x));
   }
-  /// The periodic axes whose first voxel v is, as bits.
+  /// A bit for each periodic axis along which v is the first voxel.
   unsigned wrapped(std::uint32_t v) const {
     unsigned result = 0;
     for (int a = 0; a < 3; ++a)
       if (is_wrapped(a, coordinate(v, a))) result |= 1U << a;
     return result;
   }
-  /// Notes that this frame is a slab of a grid whose slowest axis is periodic. @param wrapped the
-  /// position in this slab of the first layer of that grid, if the slab has it.
+  /// Makes this frame a slab of a grid whose slowest axis is periodic. @param wrapped the position
+  /// in this slab of the first layer of that grid, if the slab has that layer.
   void be_part_of_ring(std::uint32_t wrapped);
 
   CubicalImage grid_;

@@ -12,8 +12,9 @@
 namespace ph::cubical {
 
 /// The axes of an image of any size in the stars' grid (GridFrame). Axes with one voxel are left
-/// out; for those that are periodic, `PairSink` adds the missing bars. If at most three axes are
-/// left, they count as the last of three axes, which fixes the numbers of directions in stars.
+/// out; `PairSink` adds the bars that are missing because a periodic axis is left out. If at most
+/// three axes are left, they count as the last of three axes, which fixes the numbers of directions
+/// in stars.
 class GridShape {
  public:
   static constexpr int kMostAxes = 8;
@@ -46,21 +47,22 @@ class GridShape {
   }
   /// The slowest axis. A layer is the set of voxels at one place of this axis.
   int layer_axis() const { return axis_count() - top_dim_; }
-  /// The periodic axes whose first voxel this is, as bits: see StarTables.
+  /// A bit for each periodic axis along which this is the first voxel; see StarTables.
   unsigned wrapped(std::uint64_t voxel) const {
     unsigned result = 0;
     for (std::size_t a = 0; a < axes_.size(); ++a)
       if (axes_[a].periodic && voxel / axes_[a].stride % axes_[a].extent == 0) result |= 1U << a;
     return result;
   }
-  /// The number of periodic axes with one voxel. Each adds a copy of every cell, one dimension
-  /// higher, that goes around the axis.
+  /// The number of periodic axes with one voxel. For each such axis, every cell has a copy one
+  /// dimension higher that goes around the axis.
   std::size_t loop_count() const { return loops_.size(); }
-  /// The number in the input of the i-th periodic axis with one voxel, in descending order.
+  /// The number that the i-th periodic axis with one voxel has in the input; these numbers descend.
   std::size_t loop_axis(std::size_t i) const { return loops_[i]; }
   /// Appends the coordinates of a cell in the input's doubled grid. @param loops the periodic axes
-  /// with one voxel that the copy goes around, as bits.
-  /// @param direction from the voxel to the cell, by axis; 0 along axes that are left out.
+  /// with one voxel that the copy of the cell goes around, as bits; 0 for the cell itself.
+  /// @param direction the direction from the voxel to the cell, by axis; 0 along axes that are left
+  /// out.
   void append_numbers(std::uint64_t voxel, std::span<const int> direction, unsigned loops,
                       std::vector<Index>& numbers) const;
 

@@ -23,7 +23,7 @@ CubePairMemos cube_pair_memos(const GridShape& grid, bool is_in_ring, const RunC
 /// after the last slab is the first layer.
 struct SlabPlace {
   bool is_first = true, is_last = true, is_in_ring = false;
-  CubePairMemos cube_pairs = nullptr;  ///< null if the slab has its own
+  CubePairMemos cube_pairs = nullptr;  ///< memos that slabs share; null if the slab has its own
 
   bool has_ghost_before() const { return !is_first || is_in_ring; }
   bool has_ghost_after() const { return !is_last || is_in_ring; }

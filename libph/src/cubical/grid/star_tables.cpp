@@ -7,8 +7,8 @@
 namespace ph::cubical {
 namespace {
 
-// DisjointSets is not used, because it allocates and halves paths, which does not pay for eight
-// nodes.
+// DisjointSets is not used, because it allocates memory and halves paths, which is not worthwhile
+// for eight nodes.
 template <std::size_t size>
 int root_of(const std::array<int, size>& parent, int i) {
   while (parent[i] != i) i = parent[i];
@@ -80,9 +80,9 @@ void StarTables::pair_edges(unsigned squares) {
   of_squares_[squares].joined = static_cast<std::uint8_t>(63U & ~roots);
 }
 
-// Runs the same algorithm on the dual, in reverse order. Its nodes are the eight triangles of the
-// octahedron, and triangles outside the star were always there; squares, youngest first, join the
-// triangles (cubes of the grid) beside them.
+// Runs the same algorithm on the dual, in reverse order. The nodes are the eight triangles of the
+// octahedron, which are cubes of the grid. Triangles outside the star were always there. Each
+// square joins the two triangles beside it, and the youngest squares come first.
 CubePairs StarTables::pair_cubes(std::uint32_t star) const {
   CubePairs pairs;
   const unsigned cubes = this->cubes(star), all = squares(star);

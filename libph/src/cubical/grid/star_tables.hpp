@@ -24,7 +24,7 @@ using Direction = std::array<int, 3>;
 constexpr int kEdgeCount = 6, kSquareCount = 12, kCubeCount = 8;
 constexpr int kSquareShift = kEdgeCount, kCubeShift = kEdgeCount + kSquareCount;
 /// Bits 26-30 mark edges that are known to be in a pair; the oldest edge needs no mark.
-constexpr int kTakenShift = kCubeShift + kCubeCount - 1;   // for rank 0
+constexpr int kTakenShift = kCubeShift + kCubeCount - 1;   // the bit before the first mark
 constexpr std::uint32_t kAbsent = std::uint32_t{1} << 31;  ///< the voxel never enters
 
 constexpr int dimension_of(const Direction& d) { return (d[0] != 0) + (d[1] != 0) + (d[2] != 0); }
@@ -67,8 +67,8 @@ constexpr Direction turned(Direction d, int axis, int to) {
 constexpr int axis_of_edge(int edge) {
   return kEdges[edge][0] != 0 ? 0 : kEdges[edge][1] != 0 ? 1 : 2;
 }
-/// The two edges of a square that touch the voxel of the star; the edge along the slower axis comes
-/// first.
+/// The two edges of a square that have the voxel of the star as an end; the edge along the slower
+/// axis comes first.
 constexpr std::array<int, 2> edges_of_square(int square) {
   std::array<int, 2> edges{};
   int next = 0;
@@ -103,7 +103,8 @@ class GridOrder {
     const auto place = [&](int i) {
       Direction d = directions[i];
       for (int a = 0; a < 3; ++a)
-        if (d[a] < 0 && (wrapped >> a & 1U) != 0) d[a] = 2;  // after all others of the axis
+        // Such a direction comes after all other directions along this axis.
+        if (d[a] < 0 && (wrapped >> a & 1U) != 0) d[a] = 2;
       return d;
     };
     std::iota(at_.begin(), at_.end(), 0);
@@ -214,8 +215,8 @@ class StarTables {
     return up_[squares(star)][a] == square ? a : b;
   }
   CubePairs pair_cubes(std::uint32_t star) const;
-  /// The index of a star by its squares and cubes, for tables of pair_cubes: less than
-  /// `cube_place_count`.
+  /// The index of a star in tables of `pair_cubes`, which depends on its squares and cubes. It is
+  /// less than `cube_place_count`.
   std::uint32_t cube_place(std::uint32_t star) const {
     const unsigned c = cubes(star);
     // Adds the index of the set of cubes among the subsets of the cubes that the squares allow.
@@ -249,7 +250,7 @@ class StarTables {
   GridOrder<kSquareCount> square_order_;
   GridOrder<kCubeCount> cube_order_;
   std::array<std::uint8_t, 64> arrow_{};
-  // Data that each voxel needs, side by side in memory.
+  // Data that are needed for each voxel, side by side in memory.
   struct OfEdges {
     std::uint16_t squares_on;  // squares that have both of these edges
     std::uint8_t lowest;       // the oldest edge, as a bit
@@ -261,9 +262,10 @@ class StarTables {
   };
   std::array<OfEdges, 64> of_edges_{};
   std::array<OfSquares, 4096> of_squares_{};
-  std::array<std::uint16_t, 4096> tree_{};  // by squares: the squares paired with an edge
+  // For each set of squares: those of them that are paired with an edge.
+  std::array<std::uint16_t, 4096> tree_{};
   std::array<std::array<std::int8_t, kEdgeCount>, 4096> up_{};
-  std::array<std::uint32_t, 4096> places_begin_{};  // by squares
+  std::array<std::uint32_t, 4096> places_begin_{};  // indexed by set of squares
   std::uint32_t place_count_ = 0;
 };
 
@@ -287,7 +289,7 @@ class CubePairMemo {
 
  private:
   const StarTables* tables_;
-  mutable std::pmr::vector<std::atomic<std::uint64_t>> words_;  // never 0 once found
+  mutable std::pmr::vector<std::atomic<std::uint64_t>> words_;  // 0 until the result is found
 };
 
 }  // namespace ph::cubical

@@ -23,9 +23,9 @@ class LayerGrid : public SlabFrame {
     return (is_t_construction() ? -values_[v] : values_[v]) <= grid_.limit;
   }
   bool all_enter() const { return all_enter_; }
-  /// True if u is older than v. Preconditions: v enters and is not a ghost. A voxel that never
-  /// enters has a value that makes it younger than all others in the V-construction, and older in
-  /// the T-construction.
+  /// True if u is older than v. Preconditions: v enters and is not a ghost. The value of a voxel
+  /// that never enters makes it younger than all others in the V-construction, and older than all
+  /// others in the T-construction.
   /// @param u a voxel, or kOutside for a voxel of the border, which exists only in the
   /// T-construction.
   bool is_older(std::uint32_t u, std::uint32_t v) const {
@@ -38,14 +38,14 @@ class LayerGrid : public SlabFrame {
   class Steps {
    public:
     Steps(const LayerGrid& grid, std::uint32_t v);
-    /// The voxel one step away from u, which is the voxel itself or a voxel beside it along other
-    /// axes. @param up false for a step down.
+    /// The voxel one step away from u along `axis`, or kOutside. Precondition: u is the voxel
+    /// itself, or is reached from it by steps along other axes. @param up false for a step down.
     std::uint32_t from(std::uint32_t u, int axis, bool up) const {
       const auto way = static_cast<std::size_t>(2 * axis + (up ? 1 : 0));
       return u == kOutside || (leaves_ >> way & 1U) != 0 ? kOutside : u + by_[way];
     }
-    /// The position of a step along an axis among the three steps, in the order in which the grid
-    /// has the cells that they lead to.
+    /// The rank of a step among the three steps along an axis, in the order in which the cells that
+    /// they lead to are stored in the grid.
     /// @param step 0 (none), 1 (down), 2 (up).
     unsigned order(int axis, unsigned step) const {
       constexpr std::array<unsigned, 3> plain{1, 0, 2}, wrapped{1, 3, 2};  // mutant: many-axes-ring

@@ -9,9 +9,9 @@
 
 namespace ph::cubical {
 
-/// Arrows, roots and bridges of a graph, as found in the stars of some voxels. The arrows of a star
-/// follow its bridges that are in pairs of length zero, which join its nodes with older nodes or
-/// with each other.
+/// Arrows, roots and bridges of a graph, as found in the stars of some voxels. The arrow of a node
+/// crosses a bridge of its star that is in a pair of length zero, and leads to an older node or to
+/// another node of the star.
 struct StarLinks {
   struct Root {
     std::uint32_t voxel, node, number;
@@ -21,7 +21,7 @@ struct StarLinks {
   StarLinks(std::size_t nodes, std::pmr::memory_resource* memory)
       : arrows(nodes, kUnknown, memory), roots(memory), bridges(memory) {}
 
-  RawVector<std::uint32_t> arrows;  ///< by node; a root points to itself
+  RawVector<std::uint32_t> arrows;  ///< indexed by node; a root points to itself
   std::pmr::vector<Root> roots;     ///< in the order of the grid
   CriticalCells bridges;            ///< bridges in no pair of length zero that may join components
 };
@@ -31,7 +31,8 @@ struct FoundLinks {
   FoundLinks(RawVector<std::uint32_t>& all_arrows, std::pmr::memory_resource* memory)
       : arrows(all_arrows), roots(memory), bridges(memory) {}
 
-  RawVector<std::uint32_t>& arrows;  ///< shared by all threads, because each node is in one star
+  /// Shared by all threads. Only one thread sets each entry, because each node is in one star.
+  RawVector<std::uint32_t>& arrows;
   std::pmr::vector<StarLinks::Root> roots;
   std::pmr::vector<NumberedCell> bridges;
 };

@@ -27,7 +27,7 @@ class TopStar {
  private:
   struct Cell {
     std::uint16_t code;
-    std::uint32_t far;  // the voxel at the end of all its steps
+    std::uint32_t far;  // the voxel at the end of all steps of the cell
   };
   /// A cell that can be sorted by the order of the grid.
   struct Placed {
@@ -56,13 +56,15 @@ class TopStar {
   const Nodes& nodes_;
   const int axes_;
   StarShapes shapes_;
-  std::pmr::vector<std::uint16_t> codes_;  // by sides
-  // The cells of the star; each cell comes after the cells with one step less.
+  std::pmr::vector<std::uint16_t> codes_;  // indexed by sides
+  // The cells of the star, in an order in which each cell comes after the cells that have one step
+  // less.
   std::pmr::vector<Cell> cells_;
-  std::pmr::vector<std::uint8_t> is_in_;  // by code: 1 if the cell is in the star
+  std::pmr::vector<std::uint8_t> is_in_;  // for each code: 1 if the cell is in the star
   std::pmr::vector<Placed> facets_, tops_;
-  // By sides: the trees of the top cells around the voxel. If all cells of a tree lie in the star,
-  // its root is the youngest cell, which is the elder; any other tree is older than the star.
+  // For each set of sides: the tree of the top cell, and the age of the tree. If all cells of a
+  // tree lie in the star, its root is the youngest cell, which is the elder; any other tree is
+  // older than the star.
   std::pmr::vector<std::uint32_t> same_, age_;
   std::pmr::vector<std::uint8_t> is_new_;
 };

@@ -27,8 +27,8 @@ class VoxelStar {
       found.roots.push_back({v, v, 0});
       return;
     }
-    // The first edge is paired with the voxel. Other edges join components unless their ends are
-    // already connected, for example over a square.
+    // The first edge is paired with the voxel. Each other edge joins components unless its ends are
+    // already connected, for example by way of a square.
     found.arrows[v] = edges_[0].leads_to;
     if (count_ == 1) return;
     join_over_squares(v, steps);

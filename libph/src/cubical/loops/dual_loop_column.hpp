@@ -24,8 +24,8 @@ using DualEdge = LoopSquare;
 /// pairs.
 class FreeDualEdges {
  public:
-  /// @param squares the squares listed in `squares.order` are in no pair. `squares` must outlive
-  /// this object.
+  /// @param squares the critical squares; those listed in `squares.order` are in no pair. `squares`
+  /// must outlive this object.
   FreeDualEdges(const StarGrid& grid, const CriticalCells& squares,
                 std::pmr::memory_resource* memory)
       : grid_(grid), squares_(squares), is_free_(squares.cells.size(), false, memory) {
@@ -44,7 +44,7 @@ class FreeDualEdges {
  private:
   const StarGrid& grid_;
   const CriticalCells& squares_;
-  std::pmr::vector<bool> is_free_;  // by critical square
+  std::pmr::vector<bool> is_free_;  // indexed by critical square
 };
 
 /// A chain of edges of T under reduction: the dual of LoopColumn, in reverse order. The squares of
@@ -112,8 +112,8 @@ class DualLoopColumn {
     // Axes of T run backwards: the lower end in the stars' grid is the upper end in T.
     return beside_first ? -kSquares[square][axis] : kSquares[square][axis];
   }
-  // Adds `scale` times the coboundary of an edge of the star of v, without the square `skip` of
-  // that star if `skip` is not negative.
+  // Adds `scale` times the coboundary of an edge of the star of v. Leaves out the square `skip` of
+  // that star, unless `skip` is negative.
   void add_coboundary(std::uint32_t v, int edge, Element scale, int skip) {
     heap_.add([&](Terms& terms) {
       const int along = axis_of_edge(edge);

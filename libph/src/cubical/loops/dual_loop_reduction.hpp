@@ -74,7 +74,7 @@ class DualLoopReduction {
   const StarGrid& grid_;
   const CriticalCells &edges_, &squares_;
   const FreeDualEdges free_;
-  std::pmr::vector<const Column*> owners_;  // by critical square
+  std::pmr::vector<const Column*> owners_;  // indexed by critical square
   Reduction reduction_;
 };
 

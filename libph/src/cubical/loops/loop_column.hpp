@@ -55,8 +55,8 @@ class LoopColumn {
     return heap_.take_pivot([this](const Term& term) { return replace(term); });
   }
   /// Replaces edges older than a pivot that was removed, youngest first, up to a maximum number.
-  /// The chain then leaves this part of the grid once, instead of each time that an edge of another
-  /// part becomes its pivot between two edges of this part.
+  /// Otherwise the chain would leave this part of the grid again and again, whenever an edge of
+  /// another part becomes its pivot before older edges of this part have been replaced.
   /// @return the pivot; all other edges are older.
   std::optional<Term> follow(const Term& pivot, std::size_t most) {
     return heap_.follow(pivot, most, [this](const Term& term) { return replace(term); });
@@ -114,8 +114,8 @@ class LoopColumn {
         LoopEdge::of(grid_.value(v), grid_.in_whole(v), tables.edge_order().rank(edge)),
         coefficient);
   }
-  // Appends `scale` times the boundary of a square, without the edge `skip` of its voxel if `skip`
-  // is not negative. Incidences are as in ph/detail/complex/cubical_cells.hpp.
+  // Appends `scale` times the boundary of a square. Leaves out the edge `skip` of its voxel, unless
+  // `skip` is negative. Incidences are as in ph/detail/complex/cubical_cells.hpp.
   void append_boundary(std::uint32_t v, int square, Element scale, int skip, Terms& terms) {
     const auto [first, second] = kEdgesOfSquare[square];
     const int a = axis_of_edge(first), b = axis_of_edge(second);

@@ -24,7 +24,7 @@ class LoopOwners {
     const std::uint32_t v = grid_.here(pivot.voxel());
     return owners_[free_.number(v, grid_.tables(v).edge_order().at(pivot.rank()))];
   }
-  /// Prefetches the data that `of` will read.
+  /// Prefetches the data that `of` reads.
   void expect(const LoopEdge& pivot) const { free_.prefetch(grid_.here(pivot.voxel())); }
   StarCell cell(const LoopEdge& edge) const {
     const std::uint32_t v = grid_.here(edge.voxel());
@@ -43,7 +43,7 @@ class LoopOwners {
  private:
   const Stars& grid_;
   const FreeEdges& free_;
-  std::pmr::vector<const Column*> owners_;  // by number of the edge
+  std::pmr::vector<const Column*> owners_;  // indexed by number of the edge
 };
 
 }  // namespace ph::cubical

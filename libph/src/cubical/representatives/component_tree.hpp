@@ -14,8 +14,9 @@
 
 namespace ph::cubical {
 
-/// Says which items belong to a component that dies: items that enter at a lower value than the
-/// death, or items that enter before the death in the order of the filtration.
+/// Says which items belong to a component when it dies. With `value`, they are the items that enter
+/// at a lower value than the death; with `order`, the items that enter before the death in the
+/// order of the filtration.
 enum class Before { value, order };
 
 /// Persistent components of one of the two graphs of a grid, as in `ComponentPairing`, with data
@@ -56,8 +57,8 @@ class ComponentTree {
   /// The merges in their order in time.
   std::span<const Merge> merges() const { return merges_; }
 
-  /// The component that contains an item when the item enters. It is the first component, on the
-  /// way up from the component of the basin, that does not die before the item enters.
+  /// The component that contains an item at the moment when the item enters. On the way up from the
+  /// component of the basin, this is the first component that does not die before the item enters.
   std::uint32_t holder(std::uint32_t basin, double value, std::uint32_t voxel,
                        Before before) const {
     const auto holds = [&](std::uint32_t b) {

@@ -52,7 +52,7 @@ class ForestClosing {
   struct Up {
     std::uint32_t merge, depth;
   };
-  // The boundary of the chain at a node, or its sum over the nodes of a basin.
+  // The boundary of the chain at a node, or the sum of these boundaries over the nodes of a basin.
   struct AtNode {
     std::uint64_t age;  // larger if younger
     std::uint32_t owner, node;
@@ -65,8 +65,8 @@ class ForestClosing {
     auto place() const { return std::pair(depth, basin); }
   };
 
-  // Makes the bridges rooted trees: in each set of connected basins, every basin except the root
-  // gets the bridge towards the root.
+  // Turns the bridges into rooted trees: in each set of connected basins, each basin except the
+  // root gets the bridge that leads towards the root.
   void hang_up() {
     const auto merges = tree_.merges();
     std::pmr::vector<std::uint32_t> begin(up_.size() + 1, 0, &context_.memory);
@@ -171,7 +171,8 @@ class ForestClosing {
     while (!nodes_.empty()) {
       const AtNode at = take(nodes_);
       if (field_.is_zero(at.amount)) continue;
-      // Inside a star, the order of nodes by age is not the order of arrows.
+      // Follows the arrows until they leave the star, because the age of nodes inside a star does
+      // not follow the order of the arrows.
       std::uint32_t node = at.node;
       while (const auto step = step_from(tree_.grid(), tree_.graph(), node)) {
         ticker.work();
@@ -188,7 +189,7 @@ class ForestClosing {
   ComponentTree<Graph>& tree_;
   const K& field_;
   const RunContext& context_;
-  std::pmr::vector<Up> up_;  // by basin
+  std::pmr::vector<Up> up_;  // indexed by basin
   std::pmr::vector<AtNode> nodes_;
   std::pmr::vector<AtBasin> basins_;
 };

@@ -13,8 +13,8 @@
 namespace ph::cubical {
 
 /// The items that each component of a tree contains at its death. Two such sets are nested or
-/// disjoint; all sets are therefore slices of one array. The slice of a component has its own
-/// items, followed by the sets of the components that merged into it earlier.
+/// disjoint, so all sets can be stored as slices of one array. The slice of a component has the
+/// component's own items, followed by the sets of the components that merged into it earlier.
 class NestedSets {
  public:
   static constexpr std::uint32_t kNone = UINT32_MAX;
@@ -23,9 +23,9 @@ class NestedSets {
     std::size_t begin = 0, end = 0;
   };
 
-  /// @param holder_of(item) the component that contains an item (ComponentTree::holder), or kNone;
-  /// called by several threads.
-  /// @param name(item) the number that is stored for an item.
+  /// @param holder_of called with an item, by several threads: returns the component that contains
+  /// the item (ComponentTree::holder), or kNone.
+  /// @param name called with an item: returns the number that is stored for the item.
   template <class Graph, class HolderOf, class Name>
   NestedSets(const ComponentTree<Graph>& tree, Before before, std::uint32_t items,
              HolderOf&& holder_of, Name&& name, const RunContext& context)
@@ -106,8 +106,8 @@ class NestedSets {
     }
   }
 
-  RawVector<std::uint32_t> component_of_;  // by item
-  std::pmr::vector<Range> ranges_;         // by basin
+  RawVector<std::uint32_t> component_of_;  // indexed by item
+  std::pmr::vector<Range> ranges_;         // indexed by basin
   RawVector<std::uint32_t> items_;
 };
 

@@ -296,7 +296,8 @@ class Representing {
     };
     add_classes(tree, reduction, cell_of, 1);
   }
-  // @param surface the dimension of surfaces in the stars' grid.
+  // Adds the classes that a reduction finds. @param surface the dimension of surfaces in the stars'
+  // grid.
   template <class Graph, class Reduction, class CellOf>
   void add_classes(ComponentTree<Graph>& tree, Reduction&& reduction, CellOf&& cell_of,
                    int surface) {

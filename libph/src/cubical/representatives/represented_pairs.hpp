@@ -122,7 +122,7 @@ class RepresentedPairs {
                              std::span<const Index> death) { add(bar, birth, death); },
                       {},
                       {}};
-  MemoryClaim claim_;  // for the longest chain, and for its numbers
+  MemoryClaim claim_;  // claims memory for the longest chain and for its numbers
   PairSink pairs_;
   const Fill* fill_ = nullptr;
   unsigned copies_ = 0;

@@ -17,11 +17,12 @@ class InputTopCells {
     for (int a = 0; a < 3; ++a)
       if (grid.has_axis(a)) up_[a] = 1;
   }
-  /// Top cells are voxels, or lie before voxels except at the end of an axis.
+  /// The number of voxels. The top cells are voxels (T), or have the number of their first voxel
+  /// (V). In V, a voxel at the upper end of an axis is not the first voxel of any top cell.
   std::uint32_t count() const { return grid_.size(); }
 
-  /// The component that contains a top cell when the cell enters; kNone if the node is not a top
-  /// cell.
+  /// The component that contains a top cell when the cell enters; kNone if no top cell has the
+  /// number `node`.
   std::uint32_t holder(ComponentTree<TopGraph>& tree, std::uint32_t node) const {
     for (int a = 0; a < 3; ++a)
       if (up_[a] != 0 && grid_.step(node, a, 1) == StarGrid::kOutside) return NestedSets::kNone;

@@ -104,8 +104,8 @@ class TorusSurfaces {
     return sum;
   }
 
-  // A basis of the linear functions that vanish on all closed paths. @param at receives the place
-  // of each cell.
+  // A basis of the linear functions that vanish on all closed paths across open facets. @param at
+  // receives the place of each cell in the universal cover.
   std::vector<Function> functions_of(const StarCell& birth, RawVector<Turns>& at) const {
     const Element zero = field_.from_int(0), one = field_.from_int(1);
     std::vector<Function> functions{{one, zero, zero}, {zero, one, zero}, {zero, zero, one}};
@@ -139,7 +139,7 @@ class TorusSurfaces {
     }
     return functions;
   }
-  // Restricts the basis to the functions that vanish on a path.
+  // Restricts the basis to the functions that vanish on a closed path.
   void restrict(std::vector<Function>& functions, const Turns& path) const {
     if (path == Turns{}) return;
     const auto used = std::ranges::find_if(

@@ -161,8 +161,9 @@ void PartLoops<K>::assign(Chain& chain, std::uint32_t i) {
 template <Field K>
 bool PartLoops<K>::is_done(std::uint32_t i, std::optional<Term>& pivot, Chain& chain) {
   const auto is_here = [&] { return pivot && grid_.owns(pivot->cell.voxel()); };
-  // Expanding cells that this part sees costs about as much as sending them; a limit keeps a single
-  // column from taking very long. Afterwards, the pivot may be an edge of this part.
+  // Expanding cells that this part sees takes about as long as sending them; the limit keeps a
+  // single column from taking very long. When cells have been expanded, the pivot may be an edge of
+  // this part.
   constexpr std::size_t few = 64, times = 4;
   // mutant: column-goes
   if (pivot && !is_here()) pivot = chain.follow(*pivot, times * (chain.size() + few));

@@ -47,10 +47,10 @@ class PartLoops {
   PartLoops(const PartLoops&) = delete;
   PartLoops& operator=(const PartLoops&) = delete;
 
-  /// @param free the cells of the part that neither graph pairs.
+  /// Starts the reduction. @param free the cells of the part that neither graph pairs.
   /// @throws Error (bad_data) if they are not such cells.
   void begin(FreeCells free);
-  /// Takes in a message from another part, which may come before `begin`.
+  /// Reads a message from another part, which may come before `begin`.
   /// @throws Error (bad_data) if the message is damaged or has come before.
   void receive(std::span<const std::byte> message);
   /// True if there is nothing to do until a message is received.
@@ -91,7 +91,8 @@ class PartLoops {
   PartStars& grid_;
   std::size_t layers_missing_ = 0;             // ghost layers that have not arrived yet
   std::vector<std::vector<std::byte>> early_;  // messages that came before `begin`
-  std::map<int, std::vector<bool>> heard_;     // by sender, by number of the message
+  // For each sender, by number of the message: true if the message was received.
+  std::map<int, std::vector<bool>> heard_;
 
   FreeEdges free_;
   // The squares of the columns; squares of this part come first, from old to young.

@@ -33,8 +33,8 @@ class PartStars : public StarGrid {
   std::uint32_t here(std::uint64_t voxel) const {
     return static_cast<std::uint32_t>(voxel - first_);
   }
-  /// True if the part sees all voxels of a square in the star of a voxel that it sees; a square in
-  /// the star of a ghost may lead further out.
+  /// True if the part sees all voxels of a square in the star of v. Precondition: the part sees v.
+  /// If v is a ghost, the square may reach layers that the part does not see.
   bool sees_square(std::uint32_t v, int square) const {
     if (!is_ghost(v)) return true;
     const int away = kSquares[square][layer_axis()];
@@ -46,7 +46,7 @@ class PartStars : public StarGrid {
     return is_before(v) ? voxel + whole_ : voxel - whole_;  // a ghost at an end of a ring
   }
   const StarTables& tables(std::uint32_t v) const {
-    // The first layer of a ring may be a ghost here.
+    // This ghost may be the first layer of a ring.
     if (slab().is_in_ring && is_ghost(v) && in_whole(v) < layer_size())  // mutant: ghost-of-ring
       return star_tables(wrapped(v) | 1U << layer_axis());
     return StarGrid::tables(v);
@@ -60,9 +60,10 @@ class PartStars : public StarGrid {
   void mark_own(const FreeEdges& free) {
     mark_all_but(*this, free, here(begin_), here(begin_ + count_));
   }
-  /// Takes in the stars of a layer from the part that owns it, wherever that layer is a ghost here.
-  /// @return the number of ghost layers filled, or nothing if the voxels that enter are not the
-  /// same in both parts.
+  /// Stores the stars of a layer, as sent by the part that owns it, wherever that layer is a ghost
+  /// here.
+  /// @return the number of ghost layers filled, or nothing if the two parts disagree about the
+  /// voxels that enter.
   std::optional<std::size_t> hear(std::uint64_t of_whole, std::span<const std::uint32_t> stars) {
     std::size_t count = 0;
     for (const std::uint32_t first : {0U, size() - layer_size()}) {

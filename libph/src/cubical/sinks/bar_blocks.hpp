@@ -11,8 +11,8 @@
 
 namespace ph::cubical {
 
-/// Passes bars to a sink: many at a time, or one by one if their cells are wanted. Each bar is
-/// passed together with its copies that go around periodic axes with one voxel.
+/// Passes bars to a sink, many at a time, or one by one if their cells are wanted. Each bar is
+/// passed on together with its copies that go around periodic axes with one voxel.
 class BarBlocks {
  public:
   /// @param loop_count the number of periodic axes with one voxel.
@@ -20,9 +20,9 @@ class BarBlocks {
       : loop_count_(loop_count), wants_cells_(wants_cells), bars_(bars) {}
 
   bool wants_cells() const { return wants_cells_; }
-  /// @param append_cells called, if cells are wanted, with the axes that the copy goes around, as
-  /// bits, and two lists: appends the coordinates of the birth cell to the first and of the death
-  /// cell to the second.
+  /// @param append_cells called if cells are wanted, with the axes that the copy goes around (as
+  /// bits) and two lists. It appends the coordinates of the birth cell to the first list, and the
+  /// coordinates of the death cell to the second.
   template <class AppendCells>
   void add(const Bar& bar, AppendCells&& append_cells) {
     for (unsigned loops = 0; loops < 1U << loop_count_; ++loops) {

@@ -14,7 +14,7 @@ class PairSink {
   PairSink(const GridShape& grid, bool wants_cells, const BarSink& bars)
       : grid_(grid), bars_(bars), blocks_(grid.loop_count(), wants_cells, bars) {}
 
-  /// If false, the caller need only set the value of a cell.
+  /// If false, the caller of `pair` need only set the values of cells.
   bool wants_cells() const { return blocks_.wants_cells(); }
   /// Lets the receiver reserve memory for about `count` more pairs.
   void expect(std::size_t count) const { bars_.expect(count); }

@@ -40,7 +40,7 @@ class FreeCellSink {
  public:
   virtual ~FreeCellSink() = default;
   virtual void add_edge(const GridCell& edge) = 0;
-  /// @param value in the order of the stars.
+  /// Receives a square. @param value the value of the square in the order of the stars.
   virtual void add_square(double value, const GridCell& square) = 0;
 };
 

@@ -14,10 +14,10 @@
 
 namespace ph::cubical {
 
-/// Finds the edges of a grid with two axes that neither graph pairs; on a torus there are two such
-/// edges, whose classes never die. The graph of voxels passes on the edges that join nothing. The
-/// graph of top cells later meets each of these edges: if the edge joins components there, it is in
-/// a pair.
+/// Finds the edges of a grid with two axes that neither graph pairs. On a torus there are two such
+/// edges, and their classes never die. The graph of voxels passes on the edges that do not join
+/// components. The graph of top cells later meets each of these edges; if the edge joins components
+/// there, it is in a pair.
 class EdgesInNeither {
  public:
   explicit EdgesInNeither(std::pmr::memory_resource* memory) : met_once(memory) {}
@@ -40,7 +40,7 @@ class LayerPairs {
   struct Graphs {
     bool vertices, tops;
   };
-  /// @param grid the entire grid; it must outlive the pairs.
+  /// @param grid the entire grid; it must outlive this object.
   LayerPairs(const GridShape& grid, const Graphs& graphs, const RunContext& context);
 
   /// Adds the slab right after the layers that have been added before.
@@ -71,11 +71,12 @@ class LayerPairs {
   bool is_ring() const { return grid_.axis(grid_.layer_axis()).periodic; }
   template <class Forest>
   void take(std::optional<Forest>& all, Forest next, bool comes_before = false);
-  /// @param bridges in the order of the graph.
+  /// Adds the part of a graph that lies in a slab. @param bridges the bridges of the graph, in its
+  /// order.
   template <class Forest, class Grid, class Graph>
   void take_slab(std::optional<Forest>& all, const Grid& slab, const Graph& graph,
                  const CriticalCells& bridges, std::uint64_t first);
-  /// A cell of the grid with its direction, given its number in a star.
+  /// A cell of the grid with its direction, given the number of the cell in a star.
   WholeCell cell(int dim, const GridCell& name, double value) const {
     const auto direction = direction_in_star(grid_.top_dim(), dim, name.number());
     return {name.voxel(), direction.value_or(WideDirection{}), value};

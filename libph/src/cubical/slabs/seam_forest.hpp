@@ -49,7 +49,7 @@ struct Seam {
   /// Frees the values, which are not needed once the seam is being joined.
   void forget_values() { decltype(values)(values.get_allocator()).swap(values); }
 
-  std::pmr::vector<std::uint32_t> roots;  ///< by place; kNone if the node never enters
+  std::pmr::vector<std::uint32_t> roots;  ///< indexed by place; kNone if the node never enters
   std::pmr::vector<double> values;        ///< in the order of the stars
 };
 
@@ -69,8 +69,8 @@ class SeamForest {
         bridges(&context.memory),
         context_(context) {}
 
-  /// True if the layers of `next` may come right after these layers: the two seams agree about
-  /// their nodes.
+  /// True if the layers of `next` may come right after these layers: both have the same nodes at
+  /// the seam between them.
   bool is_before(const SeamForest& next) const {
     const auto counts = [](std::uint32_t root) { return root != Seam::kNone; };
     // mutant: seam-compared
@@ -162,7 +162,8 @@ class SeamForest {
         continue;
       }
       const std::uint32_t dies = forest.join(a, b), stays = dies == a ? b : a;
-      // Of two components that were always there, either may die: it is enough that one is closed.
+      // If both components were always there, either of them may die. It is then enough that one of
+      // them is closed.
       const bool is_closed = !may_change(dies, bridge.value);
       const bool is_certain = is_closed || (dies < outer_count && !may_change(stays, bridge.value));
       reached[stays] = earlier(reached[stays], reached[dies]);
@@ -170,8 +171,8 @@ class SeamForest {
         bridges[place(kept++)] = bridge;
         continue;
       }
-      // The closed component is now represented by a single root, which the bridge leads to from
-      // now on.
+      // From now on, a single root represents the closed component: the root to which the bridge
+      // leads.
       const auto [closed, other] = (dies == a) == is_closed ? std::pair{bridge.from, bridge.to}
                                                             : std::pair{bridge.to, bridge.from};
       merged.link(merged.find(closed), merged.find(other));
@@ -189,13 +190,13 @@ class SeamForest {
   }
 
   /// Roots that were always there come first, then critical cells in the order of the grid. Open
-  /// roots come before or after all of these, depending on the kind of graph, in such a way that an
-  /// open root counts as the youngest among roots of equal value: no other component dies because
-  /// of the number of an open root.
+  /// roots come before all of these, or after all of them, depending on the kind of graph. Their
+  /// place is chosen so that an open root counts as the youngest among roots of equal value: no
+  /// other component dies because of the number of an open root.
   std::pmr::vector<SeamRoot> roots;
-  /// The number of further roots, numbered after `roots`, that are nodes of the seam before the
-  /// layers. It is 0 unless the layers right before are about to be joined; joining then replaces
-  /// these roots, which therefore need no data.
+  /// The number of resolved roots, which are nodes of the seam before the layers and are numbered
+  /// after `roots`. It is 0 unless the layers right before are about to be joined. Joining replaces
+  /// the resolved roots, which therefore need no data.
   std::uint32_t resolved = 0;
   std::array<std::uint32_t, 2> outside{};  ///< the roots of the two parts of the outside
   Seam before, after;                      ///< empty where the grid ends
@@ -212,16 +213,15 @@ class SeamForest {
     if (root.kind == Kind::outer) return 0;
     return (root.kind == Kind::critical) == backwards ? 2 : 1;  // mutant: seam-age
   }
-  // Makes infinite values of cells finite, which distinguishes them from kNever.
+  // Makes infinite values of cells finite, so that they differ from kNever.
   static double finite(double value) {
     constexpr double most = std::numeric_limits<double>::max();
     return std::clamp(value, -most, most);
   }
   static double earlier(double a, double b) { return backwards ? std::max(a, b) : std::min(a, b); }
 
-  // Unites two sets of roots. The representative of a set is, if possible, a root that was always
-  // there (if there are several, the first), otherwise a critical cell, otherwise an open root,
-  // otherwise a resolved root.
+  // Unites two sets of roots. The representative of a set is, in order of preference, a root that
+  // was always there (the first of them), a critical cell, an open root, or a resolved root.
   template <class Rank>
   static void unite(DisjointSets& same, std::uint32_t a, std::uint32_t b, Rank&& rank) {
     a = same.find(a);
@@ -257,7 +257,8 @@ class SeamForest {
     for (std::uint32_t i = 0; i < count; ++i) number[i] = number[same.find(i)];
     renumber(number);
   }
-  // Removes the other roots. @param number receives the new number of each root that is kept.
+  // Removes the roots for which `is_kept(number)` is false. @param number receives the new number
+  // of each root that is kept.
   template <class IsKept>
   void keep_roots(std::span<std::uint32_t> number, IsKept&& is_kept) {
     std::uint32_t count = 0;
@@ -304,7 +305,8 @@ class SeamForest {
       bridges.resize(count);
     bridges.shrink_to_fit();
   }
-  // Keeps only the outside and the roots that a seam or a bridge refers to.
+  // Removes all roots except the roots of the outside, and the roots that a seam or a bridge refers
+  // to.
   void forget_closed() {
     std::pmr::vector<std::uint32_t> number(roots.size(), Seam::kNone, &context_.memory);
     for (const std::uint32_t part : outside) number[part] = 0;

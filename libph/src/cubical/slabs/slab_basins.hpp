@@ -79,7 +79,7 @@ class SlabBasins {
     roots_.push_back(root);
     return same_.add();
   }
-  // Unites two roots that were always there; the root with the lower number stays.
+  // Unites two roots that were always there; the root with the lower number remains a root.
   void unite(std::uint32_t a, std::uint32_t b) {
     a = same_.find(a);
     b = same_.find(b);

@@ -74,7 +74,7 @@ class Slabs {
              .is_in_ring = part_.is_in_ring || image_.is_ring(),
              .cube_pairs = cube_pairs_}};
   }
-  /// Lets the pages of the image file that were read for a slab leave the memory.
+  /// Removes from memory the pages of the image file that were read for a slab.
   void forget(std::uint64_t slab) {
     around_ = decltype(around_)(around_.get_allocator());
     const CubicalImage part = image_.layers(begin(slab), end(slab));
@@ -104,7 +104,7 @@ class Slabs {
   std::uint64_t depth() const {
     return image_.extent() - ghosts_before() - (part_.has_ghost_after() ? 1 : 0);
   }
-  // Consecutive layers.
+  // The layers of a slab, including its ghosts, are the layers from begin(slab) up to end(slab).
   std::uint64_t begin(std::uint64_t slab) const {
     return slab == 0 ? 0 : ghosts_before() + slab * layers_ - 1;
   }
@@ -121,7 +121,7 @@ class Slabs {
     };
     const Part own{begin(slab), end(slab)}, first{0, 1}, last{image_.extent() - 1, image_.extent()};
     std::array<Part, 2> parts{goes_before ? last : own, goes_before ? own : first};
-    // Copies the parts in their order in memory.
+    // Copies the two parts in the order in which they are in memory.
     if (image_.shape().is_t_construction()) std::swap(parts[0], parts[1]);
     around_.clear();
     for (const Part& part : parts) {
@@ -141,7 +141,8 @@ class Slabs {
   CubePairMemos cube_pairs_;
   std::pmr::vector<std::byte> around_;
   const RunContext& context_;
-  // Claims memory for the voxels of a slab in a file, which are in memory while they are used.
+  // Claims memory for the voxels of the current slab if they are in a file, because they are in
+  // memory while they are used.
   std::optional<MemoryClaim> read_;
 };
 

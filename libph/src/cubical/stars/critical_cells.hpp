@@ -11,7 +11,8 @@
 
 namespace ph::cubical {
 
-/// A cell given by a star that contains it and the number of its direction there.
+/// A cell, given by the voxel whose star contains it and by the number of its direction in that
+/// star.
 struct NumberedCell {
   std::uint32_t voxel, number;
 };

@@ -19,7 +19,7 @@ class FreeEdges {
         voxels_before_(&context.memory),
         at_(&context.memory) {}
 
-  /// Adds the edges of one voxel, as bits. Voxels come in ascending order.
+  /// Adds the free edges of one voxel, as bits. Must be called with voxels in ascending order.
   void add(std::uint32_t voxel, unsigned edges) {
     if (edges == 0) return;
     has_some_[voxel / kWord] |= std::uint64_t{1} << (voxel % kWord);
@@ -71,9 +71,11 @@ class FreeEdges {
            static_cast<std::size_t>(std::popcount(has_some_[voxel / kWord] & before));
   }
 
-  std::pmr::vector<std::uint64_t> has_some_;       // by voxel, as bits
-  std::pmr::vector<std::uint32_t> voxels_before_;  // by word: number of voxels with edges before it
-  std::pmr::vector<AtVoxel> at_;                   // by voxel with edges
+  // For each voxel: a bit that is set if the voxel has free edges.
+  std::pmr::vector<std::uint64_t> has_some_;
+  // For each word of `has_some_`: number of voxels with free edges before it.
+  std::pmr::vector<std::uint32_t> voxels_before_;
+  std::pmr::vector<AtVoxel> at_;  // for each voxel with free edges
   std::uint32_t count_ = 0;
 };
 

@@ -13,10 +13,10 @@ namespace {
 constexpr std::uint32_t kBlock = 4096;     // voxels of a row that are processed together
 constexpr std::uint32_t kPiece = 1 << 16;  // approximate number of voxels per thread at a time
 
-// Compares the age of u with the age of v, which must not be absent. There are two versions,
+// Compares the age of u with the age of v. Precondition: v is not absent. There are two versions,
 // without and with equality, because the order of the grid decides between equal voxels. An absent
-// voxel, NaN, is younger than all others in the V-construction and older in the T-construction,
-// where a voxel that never enters was always there.
+// voxel has the value NaN. It is younger than all others in the V-construction, and older in the
+// T-construction, where a voxel that never enters was always there.
 template <bool descending, bool absent_is_older>
 struct VoxelAges {
   template <class T>
@@ -108,7 +108,8 @@ void StarGrid::find_block(const T* voxels, const Block& block, std::uint32_t* st
     if (dz != 0 && !deep.exists) continue;
     for (int dy = -1; dy <= 1; ++dy) {
       if (dy != 0 && !high.exists) continue;
-      std::array<std::uint32_t, 3> bits{};  // by x - 1, x, x + 1 in memory
+      // The bits of the neighbours at x - 1, x and x + 1 in memory.
+      std::array<std::uint32_t, 3> bits{};
       for (int dx = -1; dx <= 1; ++dx)
         if (const Direction d{dz, dy, dx * forward}; dimension_of(d) != 0)
           bits[dx + 1] = star_bit(d);

@@ -151,7 +151,8 @@ void StarMatcher::pair_rest() {
   std::ranges::sort(rest_, [&](Place a, Place b) {
     return level(a) != level(b) ? level(a) < level(b) : is_younger(b, a);
   });
-  int undecided = -1;  // a level with an undecided cell, on which later pairs of it would depend
+  // The level of the last undecided cell; later pairs in this level would depend on that cell.
+  int undecided = -1;
   for (const Place i : rest_)
     if (level(i) != undecided && !pair_along_path(i)) undecided = level(i);
 }

@@ -18,9 +18,9 @@ using CriticalNames = std::array<std::pmr::vector<CellGrid::Name>, CellGrid::kMo
 /// star of that voxel; the pairs form a discrete gradient. @return the cells in no such pair.
 CriticalNames mark_cells(CellGrid& grid, const RunContext& context);
 
-/// The cells of a star as seen from its voxel, for a given number of axes. The code of a cell has
-/// one digit to base 3 per axis, for its step away from the voxel along that axis: 0 (none), 1
-/// (down), 2 (up).
+/// The cells of a star as seen from its voxel, for a given number of axes. The code of a cell is a
+/// number in base 3 with one digit per axis. The digit tells the step away from the voxel along
+/// that axis: 0 (none), 1 (down), 2 (up).
 struct StarShapes {
   struct Shape {
     std::uint8_t steps = 0;                                    ///< number of axes with a step
@@ -30,21 +30,25 @@ struct StarShapes {
   explicit StarShapes(int axes, std::pmr::memory_resource* memory);
 
   std::array<std::uint16_t, CellGrid::kMostAxes> digit{};  ///< the value of a step down, by axis
-  std::pmr::vector<Shape> shapes;                          ///< by code
+  std::pmr::vector<Shape> shapes;                          ///< indexed by code
 };
 
 /// Finds the star of a voxel, that is, the cells whose value this voxel decides, and pairs cells
 /// inside it. Each thread has its own object.
 ///
-/// A cell of the star lies some steps away from the voxel, at most one along each axis. It is in
-/// the star if all other voxels of the cell are older (T: younger, or missing). Adding a step turns
-/// a cell into a coface (V) or a face (T). Both stars are therefore cut out of the same 3^d cells,
-/// and if steps and cells are ordered by their places (T: backwards), both have the same pairs.
-/// Apparent pairs (ph/detail/reduction/apparent_pairs.hpp) come first: two cells one step apart
-/// such that the step between them is the first step that can be added to the lower cell and the
-/// first step that the upper cell has. Then paths of the gradient are reversed: if exactly one path
-/// leads from a cell to the youngest cell that it can reach, the first cell kills the second, and
-/// the path is reversed (Forman, Morse theory for cell complexes, section 11).
+/// A cell of the star lies some steps away from the voxel, at most one along each axis. In the
+/// V-construction (V), the cell is in the star if all its other voxels are older. In the
+/// T-construction (T), it is in the star if all its other voxels are younger or missing. Adding a
+/// step turns a cell into a coface (V) or a face (T). The stars of both constructions are therefore
+/// subsets of the same 3^d cells. If steps and cells are sorted by their places (in T, backwards),
+/// both stars have the same pairs.
+///
+/// Apparent pairs (ph/detail/reduction/apparent_pairs.hpp) come first. Such a pair consists of two
+/// cells one step apart. The step between them is the first step that can be added to the lower
+/// cell, and also the first step that the upper cell has. Then paths of the gradient are reversed:
+/// if exactly one path leads from a cell to the youngest cell that it can reach, the first cell
+/// kills the second, and the path is reversed (Forman, Morse theory for cell complexes, section
+/// 11).
 class StarMatcher {
  public:
   StarMatcher(CellGrid& grid, const StarShapes& shapes, const RunContext& context);
@@ -61,17 +65,18 @@ class StarMatcher {
     std::uint32_t steps_back;  // the opposite step along the axis, as a bit
     std::uint16_t code;
     std::uint8_t direction;  // 2 * axis, plus 1 for upwards
-    bool is_outside;         // there is no voxel beyond it
+    bool is_outside;         // true if the step leads outside the grid
   };
   using Place = std::uint16_t;  // index among the cells of the star
   static constexpr Place kNone = UINT16_MAX;
   struct StarCell {
     std::uint32_t cell;
-    std::uint32_t voxel;  // the farthest voxel that the cell touches; CellGrid::kNone if outside
+    // The farthest voxel that the cell touches; CellGrid::kNone if it is outside the grid.
+    std::uint32_t voxel;
     std::uint32_t steps;  // steps as bits
     std::uint16_t code;
     Place partner = kNone;
-    // Used while paths are counted:
+    // These members are used only while paths are counted.
     Place paths_in = 0, paths = 0, from = kNone;
   };
 
@@ -79,10 +84,11 @@ class StarMatcher {
   void find_cells(std::uint32_t voxel, const CellGrid::Coordinates& at);
   void pair_apparent_cells();
   void pair_rest();
-  /// Pairs a cell with a cell one step below if it can reach one. @return false if paths do not
-  /// determine the partner.
+  /// If paths lead from a cell to unpaired cells one step below, reverses the path to the youngest
+  /// of these cells, which pairs both ends of the path. @return false if several paths lead to the
+  /// youngest cell; no cell is paired then.
   bool pair_along_path(Place cell);
-  /// Counts the paths from a cell to the cells in `reached_`: none, one, or more.
+  /// Counts the paths from a cell to each of the cells in `reached_`, but no further than two.
   void count_paths(Place cell);
   /// Calls `visit(place)` for the cells one step below through which a path from `cell` continues.
   template <class Visit>
@@ -104,11 +110,13 @@ class StarMatcher {
 
   CellGrid& grid_;
   const StarShapes& shapes_;
-  std::array<Step, 2 * std::size_t{CellGrid::kMostAxes}> steps_;  // in the order of apparent pairs
+  // In the order in which apparent pairs use them.
+  std::array<Step, 2 * std::size_t{CellGrid::kMostAxes}> steps_;
   std::size_t step_count_ = 0;
   std::uint32_t border_ = UINT32_MAX;  // the ends of the axes where the previous voxel lay
-  std::pmr::vector<StarCell> cells_;   // each cell after the cells with one step less
-  std::pmr::vector<Place> place_;      // by code; kNone if the cell is not in the star
+  // Sorted so that each cell comes after the cells that have one step less.
+  std::pmr::vector<StarCell> cells_;
+  std::pmr::vector<Place> place_;  // indexed by code; kNone if the cell is not in the star
   std::pmr::vector<Place> rest_, reached_, stack_;
   CriticalNames critical_;
 };
