@@ -18,7 +18,7 @@ namespace ph {
 namespace alpha {
 namespace {
 
-/// True if any axis closes up.
+/// True if any axis is periodic.
 bool closes_up(std::span<const double> period) {
   return std::ranges::any_of(period, [](double length) { return length != 0; });
 }

@@ -13,7 +13,8 @@ class Random {
  public:
   explicit Random(std::uint64_t seed) : state_(seed) {}
   // mutant: random-task
-  /// The sequence of one task: each task of a seed has its own, whichever thread runs it.
+  /// Starts the sequence of one task. Each task of a seed has its own sequence, whichever thread
+  /// runs the task.
   Random(std::uint64_t seed, std::uint64_t task) : state_(mixed(mixed(seed + kStep) + task)) {}
 
   std::uint64_t bits() { return mixed(state_ += kStep); }

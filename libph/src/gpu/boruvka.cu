@@ -13,9 +13,10 @@ namespace ph::gpu {
 namespace {
 
 /// Borůvka's algorithm as on the CPU. Each point keeps its last answer, that is, the nearest point
-/// of another component that it found. The answer stays valid while that point is in another
-/// component; after that, its distance is a lower bound. Edges are ordered by (length, larger row,
-/// smaller row). This order is total: components choose independently, and no cycle arises.
+/// of another component that it found. The answer stays valid while the two points are in different
+/// components; after that, its distance is a lower bound. Edges are ordered by (length, larger row,
+/// smaller row). In this total order, components can choose their edges independently without
+/// closing a cycle.
 class Boruvka {
  public:
   Boruvka(Search& search, double limit, FlagEdge* edges, const RunContext& context)

@@ -144,7 +144,8 @@ class PairSearch final : public Search {
     const std::uint32_t share = (size() + most_ranges - 1) / most_ranges;
     const std::uint32_t range = std::max(least, (share + kTile - 1) / kTile * kTile);
     const std::uint32_t ranges = (size() + range - 1) / range;
-    // Chooses a number for which one launch takes a few tenths of a second.
+    // The number of points asked per launch is chosen so that a launch takes a few tenths of a
+    // second.
     const double terms_a_point = static_cast<double>(size()) * axes_;
     const auto batch = static_cast<std::uint32_t>(
         std::clamp(1e12 / terms_a_point, 16.0 * kTile, 1e6) / kTile * kTile);

@@ -6,9 +6,9 @@
 
 namespace ph::alpha {
 
-/// The unevaluated sum of two doubles, the second at most half a unit in the last place of the
-/// first: about 106 bits (Dekker, A floating-point technique for extending the available precision,
-/// 1971).
+/// The unevaluated sum of two doubles. The second is at most half a unit in the last place of the
+/// first, which gives about 106 bits (Dekker, A floating-point technique for extending the
+/// available precision, 1971).
 class DoubleDouble {
  public:
   constexpr DoubleDouble(double high = 0) : high_(high) {}

@@ -6,8 +6,8 @@
 namespace ph::alpha {
 
 /// Computes H0 by Kruskal's algorithm on the critical edges and the elder rule. Other edges join no
-/// components: an edge that is paired with a triangle enters together with that triangle, whose
-/// other two edges already connect its ends.
+/// components. An edge that is paired with a triangle, for example, enters together with that
+/// triangle, whose other two edges already connect its ends.
 /// @param on_join called with the position in `edges` of each edge that joins components.
 template <Field K, class OnJoin>
 void pair_components(const AlphaCells& cells, const RankedSimplices& edges, const K& field,

@@ -25,10 +25,10 @@ struct EdgeName {
   }
 };
 
-/// A chain of edges under reduction, as a sorted list: columns are short, which makes merging
-/// sorted lists faster than a heap. If the pivot is an edge that is paired with a triangle inside
-/// its interval, the column adds the multiple of that triangle's boundary which cancels the edge.
-/// Edges that join components are left out, because no cycle has such an edge as its youngest. An
+/// A chain of edges under reduction, stored as a sorted list: as columns are short, merging sorted
+/// lists is faster than a heap. If the pivot is paired with a triangle inside its interval, the
+/// column adds the multiple of the boundary of this triangle that cancels the pivot. Edges that
+/// join components are left out, because such an edge is never the youngest edge of a cycle. An
 /// object must not be shared by threads.
 template <Field K>
 class EdgeColumn {

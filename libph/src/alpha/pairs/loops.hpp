@@ -17,10 +17,10 @@ namespace ph::alpha {
 
 /// Computes H1 in dimension 3: reduces the boundaries of the triangles that union-find has not
 /// paired. Columns are reduced in the order of their place in space, not of their age, because the
-/// columns added to a column are then near in memory. If a column reaches the pivot of a younger
-/// column, it takes over that pivot, and the younger column is reduced further (Morozov & Nigmetov,
-/// Towards lockfree persistent homology, 2020). As in the standard algorithm, only older columns
-/// are added to younger ones.
+/// columns that are added to a column are then near it in memory. If a column reaches the pivot of
+/// a younger column, it takes over that pivot, and the younger column is reduced further (Morozov &
+/// Nigmetov, Towards lockfree persistent homology, 2020). As in the standard algorithm, only older
+/// columns are added to younger ones.
 ///
 /// In a periodic space, each boundary that is reduced to zero gives birth to an essential class of
 /// H2, and each edge that stays unpaired gives birth to an essential class of H1.
@@ -48,7 +48,7 @@ class Loops {
     // pivot does not. If cycles are wanted, one thread therefore reduces all columns.
     const bool in_turn = bars.wants_cycles();
     const std::size_t count = column_of_.size();
-    constexpr std::size_t piece = 1 << 12;  // facets per thread at a time
+    constexpr std::size_t piece = 1 << 12;  // number of facets that a thread takes at a time
     std::mutex mutex;
     for_each_piece("loops", count, in_turn ? std::max<std::size_t>(count, 1) : piece, context_,
                    [&](std::size_t from, std::size_t to) {

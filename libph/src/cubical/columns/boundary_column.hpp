@@ -16,9 +16,9 @@
 namespace ph::cubical {
 
 /// A chain of cells under reduction. If the pivot is a cell that is killed inside its star, the
-/// rest of the boundary of its killer replaces it; a chain is therefore expanded only down to its
-/// pivot. Cells that kill other cells are left out, because such a cell is never the youngest of a
-/// cycle. An object must not be shared by threads.
+/// pivot is replaced by the rest of the boundary of its killer; a chain is therefore expanded only
+/// down to its pivot. Cells that kill other cells are left out, because such a cell is never the
+/// youngest cell of a cycle. An object must not be shared by threads.
 template <Field K>
 class BoundaryColumn {
  public:

@@ -40,7 +40,7 @@ class BoundaryReduction {
   /// reduced to zero.
   template <class OnPair>
   void run(OnPair&& on_pair) {
-    constexpr std::size_t piece = 64;  // columns per thread at a time
+    constexpr std::size_t piece = 64;  // number of columns that a thread takes at a time
     reduction_.run(
         "boundaries", piece, [&] { return Chain(grid_, field_, context_); },
         [&](Chain& column, std::uint32_t i) { column.assign_boundary(CellGrid::cell(names_[i])); },

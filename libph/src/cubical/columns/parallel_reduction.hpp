@@ -71,13 +71,14 @@ class ParallelReduction {
   void grow(std::size_t by) { columns_.resize(columns_.size() + by, nullptr); }
 
   /// Reduces all columns in the order of their numbers.
-  /// @param piece columns per thread at a time.
+  /// @param piece the number of columns that a thread takes at a time.
   /// @param make_chain makes a working column.
   /// @param assign_boundary called with (chain, column): makes the chain the boundary of the
   /// column's cell.
   /// @param owner_of called with the cell of a pivot: returns the entry for the column with this
   /// pivot, which is null at first.
-  /// @param expect_owner called with the same cell some time before `owner_of`; it may prefetch.
+  /// @param expect_owner called with the same cell some time before `owner_of`; it may prefetch the
+  /// entry.
   /// @param arrange called with the columns of a round, which it may reorder.
   template <class MakeChain, class AssignBoundary, class OwnerOf, class ExpectOwner, class Arrange>
   void run(std::string_view stage, std::size_t piece, MakeChain&& make_chain,

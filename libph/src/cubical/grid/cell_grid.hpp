@@ -19,7 +19,8 @@ class CellMark {
   /// A cell in no known pair. @param upper the axes, as bits, along which the voxel that decides
   /// the value of the cell lies above the cell.
   static CellMark critical(unsigned upper) { return CellMark(kCritical, upper); }
-  /// A cell that is killed by a cofacet. @param direction of the cofacet, as in CellGrid::beside.
+  /// A cell that is killed by a cofacet. @param direction the direction from the cell to the
+  /// cofacet, as in CellGrid::beside.
   static CellMark killed_by(int direction, unsigned upper) {
     return CellMark(kKilled + static_cast<unsigned>(direction), upper);
   }

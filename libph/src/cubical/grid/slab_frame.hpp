@@ -32,8 +32,8 @@ struct SlabPlace {
 /// The voxels of a slab.
 class SlabFrame : public GridFrame {
  public:
-  /// Precondition: can_hold(grid). @param grid includes the ghosts; its slowest axis is not
-  /// periodic unless the slab is the entire grid.
+  /// Precondition: can_hold(grid). @param grid the voxels of the slab and of its ghosts. The
+  /// slowest axis of `grid` is not periodic unless the slab is the entire grid.
   SlabFrame(const CubicalImage& grid, SlabPlace slab) : GridFrame(grid), slab_(std::move(slab)) {
     if (slab_.is_in_ring) be_part_of_ring(slab_.is_first ? 1 : UINT32_MAX);
   }

@@ -45,7 +45,8 @@ inline constexpr auto kSquares = directions_of<kSquareCount>(2);
 inline constexpr auto kCubes = directions_of<kCubeCount>(3);
 
 constexpr int place_of(const Direction& d) { return (d[0] + 1) * 9 + (d[1] + 1) * 3 + d[2] + 1; }
-/// For each direction, by place_of(direction): its number among the directions of its dimension.
+/// For each direction, by place_of(direction): the number of the direction among all directions of
+/// the same dimension.
 inline constexpr std::array<int, 27> kNumbers = [] {
   std::array<int, 27> numbers{};
   for (int i = 0; i < kEdgeCount; ++i) numbers[place_of(kEdges[i])] = i;
@@ -138,7 +139,7 @@ class CubePairs {
   explicit CubePairs(std::uint64_t word) : word_(word) {}
   std::uint64_t word() const { return word_; }
 
-  /// The axis along which one leaves a cube through the square that it is paired with.
+  /// The axis along which a path leaves a cube through the square with which the cube is paired.
   int exit(int cube) const { return static_cast<int>(word_ >> (2 * cube) & 3U); }
   /// The squares that are paired with cubes.
   unsigned squares() const { return static_cast<unsigned>(word_ >> 16) & 4095U; }
@@ -207,7 +208,7 @@ class StarTables {
   }
   /// The square that an edge is paired with, or -1.
   int square_of(std::uint32_t star, int edge) const { return up_[squares(star)][edge]; }
-  /// The squares that are paired with edges.
+  /// The squares of a star that are paired with edges.
   unsigned edge_squares(std::uint32_t star) const { return tree_[squares(star)]; }
   /// The edge that a square is paired with. Precondition: it is in `edge_squares`.
   int edge_of(std::uint32_t star, int square) const {

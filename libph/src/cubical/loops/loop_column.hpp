@@ -16,9 +16,9 @@
 namespace ph::cubical {
 
 /// A chain of edges under reduction. If the pivot is an edge that is paired inside its star, the
-/// rest of the boundary of its square replaces it; a chain is therefore expanded only down to its
-/// pivot. Edges that kill a component are left out, because such an edge is never the pivot of a
-/// column. An object must not be shared by threads.
+/// pivot is replaced by the rest of the boundary of the square with which it is paired; a chain is
+/// therefore expanded only down to its pivot. Edges that kill a component are left out, because
+/// such an edge is never the pivot of a column. An object must not be shared by threads.
 /// @tparam Stars StarGrid, StoredStars, or PartStars.
 template <Field K, class Stars>
 class LoopColumn {
@@ -49,8 +49,8 @@ class LoopColumn {
         terms.emplace_back(term.cell, field_.multiply(scale, term.coefficient()));
     });
   }
-  /// Removes and returns the youngest edge that is in no pair inside its star, or whose star this
-  /// part of the grid does not see. Returns nothing if the chain becomes 0.
+  /// Removes and returns the youngest edge that either is in no pair inside its star or lies in a
+  /// star that this part of the grid does not see. Returns nothing if the chain becomes 0.
   std::optional<Term> take_pivot() {
     return heap_.take_pivot([this](const Term& term) { return replace(term); });
   }

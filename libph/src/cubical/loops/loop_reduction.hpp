@@ -29,7 +29,8 @@ class LoopReduction {
   using Term = typename Reduction::Term;
   using Column = typename Reduction::Column;
 
-  /// @param squares the squares listed in `squares.order` give birth to no class that dies.
+  /// @param squares the critical squares; those listed in `squares.order` give birth to no class
+  /// that dies.
   LoopReduction(const Stars& grid, const FreeEdges& free, const CriticalCells& squares,
                 const K& field, const RunContext& context)
       : grid_(grid),
@@ -60,7 +61,7 @@ class LoopReduction {
  private:
   static constexpr bool kInFile = !std::same_as<Stars, StarGrid>;
 
-  // @param piece columns per thread at a time.
+  // Reduces the columns. @param piece the number of columns that a thread takes at a time.
   void reduce_all(std::size_t piece, bool to_cycles) {
     reduction_.run(
         "loops", piece, [&] { return Chain(grid_, field_, context_, to_cycles); },

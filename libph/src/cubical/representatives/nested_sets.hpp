@@ -67,7 +67,8 @@ class NestedSets {
   bool contains(std::uint32_t basin, std::uint32_t item) const {
     const std::uint32_t holder = component_of_[item];
     if (holder == kNone) return false;
-    const std::size_t place = ranges_[holder].begin;  // position of its first own item
+    // The place of the first item that this component itself contains.
+    const std::size_t place = ranges_[holder].begin;
     return place >= ranges_[basin].begin && place < ranges_[basin].end;
   }
   /// Frees the memory of the components.

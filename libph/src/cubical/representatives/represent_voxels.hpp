@@ -36,11 +36,11 @@ struct RepresentativeSink {
 /// voxels, and at most three axes are kept (GridShape::keeps_axis).
 bool can_represent_voxels(const CubicalImage& grid);
 
-/// Computes the bars of `pair_voxels`, each with a cycle; if `kind` is voxels, bars of H0 and of
-/// the second highest dimension have a set of voxels instead. Precondition: `can_represent_voxels`,
-/// and kind is cycles or voxels. Time: three to five times the time of `pair_voxels`. Memory: 20
-/// bytes per voxel, the critical cells and the output. It does not work in slabs: the image must
-/// fit.
+/// Computes the bars of `pair_voxels`, each with a cycle. If `kind` is voxels, bars of H0 and of
+/// the second highest dimension have a set of voxels instead. Preconditions:
+/// can_represent_voxels(grid), and `kind` is cycles or voxels. Time: three to five times the time
+/// of `pair_voxels`. Memory: 20 bytes per voxel, the critical cells and the output. It does not
+/// work in slabs: the entire image must fit in memory.
 template <Field K>
 void represent_voxels(const CubicalImage& grid, const K& field, int max_dim, Representatives kind,
                       const RunContext& context, const RepresentativeSink& sink);

@@ -41,8 +41,9 @@ class RepresentedPairs {
   /// True if hollows are wanted as sets. If an axis with one voxel is periodic, a surface around a
   /// hollow also goes around that axis, which a set of voxels cannot express.
   bool wants_hollows() const { return wants_sets() && grid_.shape().loop_count() == 0; }
-  /// Adds a pair as PairSink::pair does. @param fill called with a Representation to fill in: once
-  /// for a set, once for a chain, for both, or never.
+  /// Adds a pair as PairSink::pair does. @param fill called with a Representation to fill in, once
+  /// for each kind of representation that the kept bars of this pair need: a set, a chain, both or
+  /// neither.
   void pair(int dim, const StarCell& birth, const StarCell& death, const Fill& fill) {
     begin(grid_.is_t_construction() ? death : birth, grid_.is_t_construction() ? &birth : &death,
           fill);
@@ -62,8 +63,8 @@ class RepresentedPairs {
     death_voxel_.reset();
     if (death != nullptr) death_voxel_ = death->voxel;
   }
-  // Called for a bar and its copies around periodic axes with one voxel, in the order of the bits
-  // of the axes.
+  // Called for a bar and for its copies around periodic axes with one voxel. Call number k is for
+  // the copy that goes around the axes that the bits of k name; call 0 is for the bar itself.
   void add(const Bar& bar, std::span<const Index> birth, std::span<const Index> death) {
     const unsigned loops = copies_++;
     if (!sink_.add(bar, birth, death)) return;
@@ -94,9 +95,9 @@ class RepresentedPairs {
     }
     sink_.represent(bar_of);
   }
-  // True if a copy that goes around axes with one voxel has the opposite sign: by the product rule
-  // for boundaries, the sign changes for each pair of an axis that the copy goes around and a later
-  // axis that the cell spans.
+  // True if a copy that goes around axes with one voxel has the opposite sign. By the product rule
+  // for boundaries, each pair of an axis that the copy goes around and a later axis that the cell
+  // spans changes the sign.
   bool is_turned(std::span<const Index> cell, unsigned loops) const {
     bool result = false, is_odd = false;  // parity of the number of axes gone around
     std::size_t i = grid_.shape().loop_count();

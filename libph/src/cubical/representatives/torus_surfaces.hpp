@@ -13,19 +13,19 @@ namespace ph::cubical {
 
 /// Cycles of the surfaces in a grid with three periodic axes that never die.
 ///
-/// Top cells are connected across facets that are younger than the facet that gives birth;
-/// following these paths gives each cell a place in the universal cover of the torus. Take a linear
-/// function of the numbers of turns around each axis that vanishes on all closed paths except the
-/// path that the birth closes. This function jumps only at the birth and at older facets, and its
-/// jumps form a cycle.
+/// Top cells are connected across facets that are younger than the facet that gives birth to the
+/// surface; following these paths gives each cell a place in the universal cover of the torus. Take
+/// a linear function of the numbers of turns around the axes that vanishes on all closed paths
+/// except the path that the birth closes. This function jumps only at the facet of the birth and at
+/// older facets, and its jumps form a cycle.
 template <Field K>
 class TorusSurfaces {
  public:
   TorusSurfaces(const StarGrid& grid, const K& field, const RunContext& context)
       : grid_(grid), field_(field), context_(context) {}
 
-  /// Appends the cycle of a class that a facet gives birth to. Precondition: the three axes are
-  /// periodic and the facet is in no pair.
+  /// Appends the cycle of a class that a facet gives birth to. Precondition: all three axes are
+  /// periodic, and the facet is in no pair.
   void append(const StarCell& birth, VoxelChain<K>& chain) const {
     RawVector<Turns> at(grid_.size(), &context_.memory);
     std::vector<Function> functions = functions_of(birth, at);

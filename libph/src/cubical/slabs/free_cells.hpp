@@ -34,8 +34,9 @@ struct WholeCell {
   double value;
 };
 
-/// Receives the critical edges and squares of three axes that neither graph pairs, each once, as
-/// soon as this is known. The reduction for loops needs only these cells.
+/// Receives the critical edges and squares of three axes that neither graph pairs. Each cell is
+/// received once, as soon as it is known that neither graph pairs it. The reduction for loops needs
+/// only these cells.
 class FreeCellSink {
  public:
   virtual ~FreeCellSink() = default;

@@ -32,8 +32,9 @@ class EdgesInNeither {
   std::pmr::map<GridCell, double> met_once;
 };
 
-/// Computes the pairs of a grid, except for loops of three axes, while its layers come: it keeps
-/// the components of the two graphs, and passes on pairs as soon as no other layer can change them.
+/// Computes the pairs of a grid layer by layer, except for loops of three axes. The layers added so
+/// far are represented by the components of the two graphs; a pair is passed on as soon as no other
+/// layer can change it.
 class LayerPairs {
  public:
   /// The graphs that are needed.

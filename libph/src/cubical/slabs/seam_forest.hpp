@@ -39,7 +39,8 @@ struct SeamBridge {
   std::uint32_t from, to;
 };
 
-/// The nodes that some consecutive layers share with the layer before or after them, by place.
+/// The nodes that some consecutive layers share with the layer before or after them, indexed by
+/// place.
 struct Seam {
   static constexpr std::uint32_t kNone = UINT32_MAX;
 

@@ -22,9 +22,9 @@ namespace ph::cubical {
 /// two, and the first and the last one are neighbours as well.
 class Slabs {
  public:
-  /// The number of layers of a slab: as many as the context asks for, otherwise so many that a slab
-  /// takes at most a quarter of the memory, whatever its values are. A GridFrame can always hold
-  /// the slab.
+  /// The number of layers of a slab. If the context asks for a number, it is that number;
+  /// otherwise, a slab takes at most a quarter of the memory, whatever the values of its voxels
+  /// are. A GridFrame can always hold the slab.
   static std::uint64_t layers_that_fit(const LayeredImage& image, const RunContext& context) {
     constexpr double bytes = 128;     // per voxel
     constexpr double most = 1 << 28;  // voxels, because larger slabs are not faster

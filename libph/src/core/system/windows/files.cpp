@@ -42,7 +42,7 @@ std::optional<Status> status_of(HANDLE handle) {
   return status;
 }
 
-/// Line ends are not converted, and programs that we start do not inherit the file.
+/// Line ends are not converted, and child processes do not inherit the file.
 constexpr int kBytes = _O_BINARY | _O_NOINHERIT;
 
 int open(const std::filesystem::path& path, int how) {
