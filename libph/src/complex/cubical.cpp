@@ -127,10 +127,11 @@ Cubical::Table Cubical::new_table(const RunContext& context) const {
                 fmt::format("image: found {} voxels, at most 2^32 - 2 are possible with an engine "
                             "that lists cells (any engine except gradient)",
                             voxels_.size()));
-  // The table may outlive this run, so its memory comes from the context of the constructor.
+  // The table may outlive this run. Its memory is therefore counted by the context that the
+  // constructor was given.
   Table table{std::pmr::vector<std::uint32_t>(&context_->memory),
               std::pmr::vector<double>(&context_->memory)};
-  // Voxels that enter get their ranks in the order of (value, position).
+  // The voxels that enter are ranked by value, and voxels of equal value by position.
   struct Voxel {
     double value;
     std::uint32_t position;
@@ -172,9 +173,10 @@ Cubical::Table Cubical::new_table(const RunContext& context) const {
     ticker.work(more);
   }
 
-  // Voxels lie at even coordinates (V construction) or at odd ones (T construction). A cube of V
-  // enters with its last vertex, a face of T with its first coface. The keys of the voxels are
-  // spread to the other cells along one axis after the other.
+  // Voxels lie at even coordinates (V construction) or at odd ones (T construction). In the V
+  // construction, a cube enters with its last vertex; in the T construction, a face enters with its
+  // first coface. The keys of the voxels are therefore spread to the other cells, along one axis
+  // after another.
   const std::uint64_t voxel_parity = grid_.voxels_are_vertices ? 0 : 1;
   const auto grid_index = [&](std::uint64_t voxel) {
     std::uint64_t index = 0;

@@ -15,7 +15,7 @@ namespace {
 
 using Coordinates = std::vector<Index>;
 constexpr Index kNotThere = -1;
-constexpr std::size_t kBytesPerEntry = 40;  // counts the matrix and the complex made from it
+constexpr std::size_t kBytesPerEntry = 40;  // includes both the matrix and the complex made from it
 
 /// The cubes of an image, as points of the doubled grid: a cube has an odd coordinate along each
 /// axis in which it extends, and an even one along each other axis.
@@ -65,9 +65,9 @@ class Cubes {
   bool voxels_are_vertices() const {
     return options_.construction == CubicalOptions::Construction::vertices;
   }
-  /// The value of the cube x, by recursion from axis k on: the value of its last voxel (V
-  /// construction) or of its first voxel (T construction). @param voxel the coordinates of a voxel
-  /// along the axes before k, combined into one number.
+  /// Returns the value of the last voxel of cube x (V construction) or of its first voxel (T
+  /// construction). The recursion handles axis k and the axes after it.
+  /// @param voxel the position of the voxel along the axes before k, as one row-major index.
   double extreme_value(const Coordinates& x, std::size_t k, Index voxel) const {
     if (k == x.size()) return voxel_value(voxel);
     const Index n = image_.extents[k];

@@ -64,7 +64,7 @@ class Envelope {
   std::pmr::vector<double> heights_;
   // The integers q whose parabolas form the envelope, from left to right.
   std::pmr::vector<std::size_t> sites_;
-  std::pmr::vector<double> starts_;  // the point from which each parabola is the lowest
+  std::pmr::vector<double> starts_;  // for each parabola: the point where it becomes the lowest
 };
 
 void check(PointsView points, double voxel, Index margin) {

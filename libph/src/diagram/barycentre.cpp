@@ -50,8 +50,8 @@ double root_mean_square(const std::vector<double>& numbers) {
   return largest * std::sqrt(sum / static_cast<double>(numbers.size()));
 }
 
-/// The number of the diagram with the least sum of squared distances to all diagrams; the first if
-/// several have it.
+/// The index of the diagram with the least sum of squared distances to all diagrams. If several
+/// diagrams attain it, returns the first of them.
 std::size_t medoid(Diagrams diagrams, const RunContext& context) {
   const DistanceMatrix distances = diagram_distances(
       diagrams,
@@ -115,8 +115,8 @@ class Alternation {
       distances.push_back(matching.distance.value);
     return root_mean_square(distances);
   }
-  /// Moves each bar to the mean of its partners in the last `match`. A bar of a diagram that had no
-  /// partner gives a new bar.
+  /// Moves each bar to the mean of its partners in the last `match`. For each bar of a diagram that
+  /// had no partner, adds a new bar.
   void move() {
     std::vector<std::vector<Bar>> partners(bars_.size());
     std::vector<Bar> moved;
@@ -131,7 +131,7 @@ class Alternation {
       }
     for (const std::vector<Bar>& own : partners)
       if (!own.empty()) moved.push_back(mean_of(own, diagrams_.size()));
-    // The length of a new bar may underflow.
+    // Removes bars whose length has underflowed to zero.
     std::erase_if(moved, [](const Bar& bar) { return !(bar.birth < bar.death); });
     bars_.swap(moved);
   }

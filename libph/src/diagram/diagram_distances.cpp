@@ -18,8 +18,9 @@ struct Pair {
   std::size_t bars() const { return a.size() + b.size(); }
 };
 
-/// @param count the number of pairs. @param add_pairs appends all pairs to the list that it is
-/// given.
+/// Computes the distance of each pair of diagrams, on all threads. @param count the number of
+/// pairs.
+/// @param add_pairs appends all pairs to the list that it is given.
 template <class AddPairs>
 std::vector<double> distances_of(std::size_t count, const DiagramDistance& distance,
                                  const RunContext& context, AddPairs&& add_pairs) {

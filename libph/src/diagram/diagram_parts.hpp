@@ -18,12 +18,13 @@ struct PlacedEnd {
   std::uint32_t place;
 };
 
-/// The bars of a diagram, divided by which of their ends are finite. Infinite bars are represented
-/// by their finite ends.
+/// The bars of a diagram, grouped by which of their ends are finite. A bar with one infinite end is
+/// represented by its finite end.
 struct DiagramParts {
   std::vector<Point> finite;  // longest first, bars of equal length in their original order
   std::vector<std::uint32_t> places;
-  // Births of bars without death, and deaths of bars without birth.
+  // rays[0] holds the births of the bars that never die, rays[1] the deaths of the bars that have
+  // no birth.
   std::vector<PlacedEnd> rays[2];
   std::vector<std::uint32_t> lines;  // bars without birth and death
 
@@ -35,8 +36,9 @@ struct DiagramParts {
 /// True if the infinite bars can be paired: both diagrams have the same number of each kind.
 bool have_as_many_infinite(const DiagramParts& a, const DiagramParts& b);
 
-/// Appends pairs of infinite bars, in the order of their finite ends, because crossing pairs have
-/// no advantage on a line. Both diagrams must have the same number of infinite bars of each kind.
+/// Pairs the infinite bars of each kind in the order of their finite ends, and appends the pairs.
+/// This is optimal, because pairs that cross have no advantage on a line. Both diagrams must have
+/// the same number of infinite bars of each kind.
 void pair_infinite(const DiagramParts& a, const DiagramParts& b,
                    std::vector<std::pair<std::uint32_t, std::uint32_t>>& pairs);
 

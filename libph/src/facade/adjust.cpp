@@ -17,8 +17,8 @@ using RenameCell = std::function<void(Numbers&)>;
 
 Numbers numbers_of(const InputCell& cell) { return {cell.numbers.begin(), cell.numbers.end()}; }
 
-/// Gives the bar that was added last to `to` the representative of bar i of `from`, without the
-/// cells that `keep` rejects and with the others renamed.
+/// Copies the representative of bar i of `from` to the bar that was added to `to` last. Leaves out
+/// the cells that `keep` rejects, and renames the other cells.
 void copy_representative(const Barcode& from, std::size_t i, Barcode& to, const KeepCell& keep,
                          const RenameCell& rename) {
   if (from.representatives() == Representatives::none) return;

@@ -171,8 +171,8 @@ bool can_be_tried(const Rips& rips, const RunContext& context) {
 }
 
 Estimate estimate_one(const Rips& rips, const Options& options, const RunContext& context) {
-  // If no limit is set, the memory of the machine is the limit, because an estimate must not fill
-  // it.
+  // An estimate must not fill the memory of the machine. If no limit is set, that memory is
+  // therefore the limit.
   RunContext within(context.memory);
   within.memory.set_limit(std::min(context.memory.left(), machine_memory()));
   within.stop = context.stop;

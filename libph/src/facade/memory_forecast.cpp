@@ -24,12 +24,14 @@ double bytes_per_bar(const Options& options) {
 // Bytes that every run takes: small containers, the allocator, and the pages of the program's own
 // code.
 constexpr double kAlways = 4 << 20;
-// The number of cells that the engine lists in the larger of the parts that it computes: enough to
-// show how memory grows, but few enough to take only seconds and a fraction of the total time.
+// These constants determine how many cells the engine lists in the larger of the parts that it
+// computes: enough to show how memory grows, but few enough to take only seconds and a fraction of
+// the total time.
 constexpr double kPilotEdges = 40'000, kPilotCells = 60'000, kPilotShare = 0.125;
 constexpr double kMostPilotEdges = 4e6, kMostPilotCells = 250'000;
-// Margins, because memory grows in leaps (measured), and grows faster overall than from part to
-// part unless the complex consists of many such parts side by side.
+// Safety margins. As measurements show, memory grows in leaps. It also grows faster from a part to
+// the entire complex than from one part to the next, unless the complex consists of many similar
+// parts side by side.
 constexpr double kMargin = 3, kPowerMargin = 0.35, kPowerMarginOfLocal = 0.1;
 
 double sum(std::span<const double> counts) {
@@ -75,8 +77,8 @@ RipsGraph induced(const RipsGraph& graph, std::span<const std::uint32_t> vertice
                              weights);
 }
 
-/// The memory that the engine took in a part beyond `structure` and the bars of H0, and the number
-/// of cells that it listed.
+/// A run of the engine on a part of a complex: the number of cells that the engine listed, and the
+/// bytes that it took in addition to the edges, `structure` and the bars of H0.
 struct Pilot {
   double listed = 0, extra = 0;
 };
@@ -130,8 +132,8 @@ std::vector<std::uint32_t> order_of(const RipsGraph& graph, std::uint64_t seed) 
   return ball;
 }
 
-/// The length of a prefix of the order in which the engine lists about `wanted` cells, out of
-/// `listed`.
+/// The number of vertices at the beginning of `order` that span a part in which the engine lists
+/// about `wanted` cells. @param listed the number of cells that it lists in the entire complex.
 std::size_t pilot_size(const RipsGraph& graph, std::span<const std::uint32_t> order, double listed,
                        double wanted, const Options& options, const RunContext& context) {
   std::size_t size = order.size();
@@ -173,8 +175,8 @@ MemoryForecast forecast_rips(const RipsGraph& graph, std::span<const double> cel
   };
   const Pilot large = pilot(1, wanted);
   if (large.listed >= listed) return {least, most + 1.25 * large.extra};
-  // extra = listed^power, fitted to smaller parts. Two of these are computed and averaged, because
-  // memory grows in leaps.
+  // The extra memory is taken to be proportional to listed^power. The power is fitted to the large
+  // part and to the mean of two smaller parts: a mean, because memory grows in leaps.
   Pilot small;
   for (const std::uint64_t seed : {1, 2}) {
     const Pilot one = pilot(seed, wanted / 4);
@@ -190,7 +192,7 @@ MemoryForecast forecast_rips(const RipsGraph& graph, std::span<const double> cel
 }
 
 MemoryForecast forecast_edges(Index vertices, double edges, const Options& options) {
-  // A sample estimates the number of edges, but not what the engine makes of them.
+  // The sample tells how many edges there are, but not how much memory the engine needs for them.
   constexpr double fewer = 0.9, margin = 3;
   const double held = 16 * edges;
   const double known = held + structure(static_cast<std::size_t>(vertices),
@@ -229,8 +231,8 @@ MemoryForecast forecast_points(PointsView points, std::optional<double> threshol
   if (small < large)
     power = std::log(of_large / of_small) /
             std::log(static_cast<double>(large) / static_cast<double>(small));
-  // Measured: besides the part that grows with the points, there are pairs of nodes on opposite
-  // sides of holes that wait in the queue.
+  // Measured: in addition to the data per point, memory holds pairs of nodes on opposite sides of
+  // holes while they wait in the queue. The power is therefore raised.
   power = std::clamp(power, 1.0, 1.6) + kPowerMarginOfLocal;
   const double factor = static_cast<double>(points.rows()) / static_cast<double>(large);
   return {least, held + 2 * of_large * std::pow(factor, power) +
@@ -248,14 +250,14 @@ MemoryForecast forecast_voxels(double stored, double voxels, double cells,
 }
 
 MemoryForecast forecast_intervals(double stored, bool with_representatives) {
-  // Measured: factors for critical simplices with their columns (almost none for a surface, many
-  // for noise), and for cycles.
+  // Measured: multiples of the stored bytes. They allow for critical simplices with their columns
+  // (almost none for a surface, many for noise) and, with representatives, for cycles.
   return {stored, (with_representatives ? 5.5 : 2.0) * stored + kAlways};
 }
 
 MemoryForecast forecast_cells(double stored, std::span<const double> cells) {
-  // Bytes for a column with its entries in the table of pivots and in the list of columns to
-  // reduce, or for the pair of a cell. Fill-in is not counted.
+  // Bytes per cell: either for a column with its entries in the table of pivots and in the list of
+  // columns to reduce, or for the pair of the cell. Fill-in is not counted.
   constexpr double bytes_per_column = 128;
   return {stored, stored + bytes_per_column * sum(cells) + kAlways};
 }

@@ -15,16 +15,15 @@ struct MemoryForecast {
 /// The highest dimension in which an engine lists simplices of a Rips complex.
 int listed_rips_dim(Engine engine, int max_dim);
 
-/// The memory that the homology of a Rips complex takes in addition to its edges. The engine
-/// computes three small parts of the complex; the memory that these take in addition to bit rows or
-/// adjacency lists is extrapolated.
+/// Forecasts the memory that the homology of a Rips complex takes, including the edges. The engine
+/// computes three small parts of the complex. The memory that these parts take in addition to their
+/// edges and to bit rows or adjacency lists is extrapolated.
 /// @param cells the number of cells of each dimension, up to listed_rips_dim. @param options must
-/// name an engine and a dimension, without a collapse.
+///        name an engine and a dimension, without a collapse.
 MemoryForecast forecast_rips(const RipsGraph& graph, std::span<const double> cells,
                              const Options& options, const RunContext& context);
 
-/// The same for edges that are too many to be made, from their approximate number. The forecast
-/// includes the edges.
+/// The same if there are too many edges to make them: the forecast uses their approximate number.
 MemoryForecast forecast_edges(Index vertices, double edges, const Options& options);
 
 /// The same for an engine that takes only points: the engine computes two samples of them.
@@ -32,9 +31,9 @@ MemoryForecast forecast_edges(Index vertices, double edges, const Options& optio
 MemoryForecast forecast_points(PointsView points, std::optional<double> threshold,
                                const Options& options, const RunContext& context);
 
-/// The same for an image that is paired voxel by voxel. The bounds are for a smooth image, with
-/// almost no critical cells, and for noise. @param stored the bytes of the image and of the data
-/// kept per voxel.
+/// The same for an image that is paired voxel by voxel. The lower bound is for a smooth image,
+/// which has almost no critical cells; the upper bound is for noise. @param stored the bytes of the
+/// image and of the data kept per voxel.
 MemoryForecast forecast_voxels(double stored, double voxels, double cells,
                                bool with_representatives);
 

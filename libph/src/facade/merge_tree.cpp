@@ -40,7 +40,7 @@ MergeTree tree_of(const F& f, const RunContext& context) {
                                tree.births[younger]});
         sizes[elder] += sizes[younger];  // mutant: merge-sizes
       });
-  // Vertices that never enter keep their numbers.
+  // Translates vertices to their numbers in the input, which include the vertices that never enter.
   if constexpr (requires { f.vertex_number(graph.vertices[0]); }) {  // mutant: merge-tree-numbers
     std::vector<Index> number;
     number.reserve(graph.vertices.size());
@@ -61,8 +61,8 @@ std::vector<Index> MergeTree::components(double value) const {
     if (!(m.value <= value)) break;  // stops at once if `value` is NaN
     parent[static_cast<std::size_t>(m.younger)] = m.elder;
   }
-  // A parent was born before its child: the loop follows parents to the root, and halves the path
-  // for later vertices.
+  // A parent was born before its child, so the loop that follows parents ends at a root. It halves
+  // the path on its way, which makes later searches faster.
   for (std::size_t v = 0; v < parent.size(); ++v) {
     for (Index root = parent[v]; root >= 0;) {
       Index& up = parent[static_cast<std::size_t>(root)];

@@ -16,13 +16,13 @@ namespace {
 // filtration, not on the size of its cells.
 using Sparse = RipsFiltration<RipsLayout::sparse, 1>;
 
-// Measured for H2 to H7: the more edges are dominated, the larger is the gain of a collapse, up to
-// a factor of a few hundred. If two thirds are dominated, it still saves half of the time and of
-// the memory. Below that share, on spheres of higher dimension and on distances that are not a
-// metric, nearly all edges are kept and the collapse is a waste of time.
+// Measured for H2 to H7: the more edges are dominated, the more time a collapse saves, up to a
+// factor of a few hundred. If two thirds of the edges are dominated, a collapse still saves half of
+// the time and of the memory. If fewer are dominated, as on spheres of higher dimension and for
+// distances that are not a metric, nearly all edges are kept and the collapse is a waste of time.
 constexpr double kWorthwhileShare = 0.6;
-// Up to this dimension, engines are chosen without the top dimension of the complex, which takes
-// long to find.
+// If homology is computed up to this dimension or a lower one, the engine is chosen without the
+// dimension of the complex, which takes long to find.
 constexpr int kHighestByEdges = 3;
 
 /// The reason why a collapse would spoil the result; empty if it would not.
@@ -66,9 +66,10 @@ bool is_forest_alone(const Rips& rips) {
          !rips.has_form(RipsForm::distinct_edges);
 }
 
-/// The highest dimension to compute. @throws Error (usage) as check does; on a lowest dimension
-/// above the highest one if that was not given; on a highest dimension above 0 if a forest was
-/// given.
+/// The highest dimension to compute.
+/// @throws Error (usage) on options that check refuses. Also throws if the lowest dimension is
+/// above the highest one and no highest one was given, or if the highest dimension is above 0 and
+/// only a spanning forest is available.
 int max_dim_of(const Rips& rips, const Options& options) {
   const bool is_forest = is_forest_alone(rips);
   check(options);
@@ -103,7 +104,7 @@ struct FormChoice {
   std::string_view reason;
 };
 
-/// @param options including the highest dimension.
+/// Makes a plan from what was chosen. @param options must include the highest dimension.
 RunPlan planned(const Options& options, const FormChoice& choice, CollapseChoice&& collapse) {
   RunPlan plan = run_plan(options, *options.max_dim, choice.engine->id, choice.reason);
   plan.form = choice.form;
@@ -208,7 +209,7 @@ struct Settled {
   }
   Options options;             // including the highest dimension
   FormChoice choice;           // without an engine if none can do the task for so many vertices
-  bool goes_by_edges = false;  // true if the plan needs no edges
+  bool goes_by_edges = false;  // true if the plan does not depend on the edges
 };
 
 }  // namespace

@@ -6,10 +6,11 @@ namespace ph::detail {
 
 /// Decides how the barcode of a Rips filtration will be computed: see `plan`.
 ///
-/// Engines are asked about the input if they can judge it, otherwise about a graph without edges.
-/// If the best engine works edge by edge, the form is the first one that it takes and the input can
-/// give. Otherwise the engine, the dimension and the collapse depend on the edges. These are then
-/// made, because that engine needs them anyway.
+/// Each engine is asked about the input if it can judge it, otherwise about a graph with the same
+/// vertices and without edges. If the best engine works edge by edge, the plan uses the first form
+/// of the filtration that the engine takes and that the input can give. Otherwise, the choice of
+/// the engine, the dimension and the collapse depends on the edges. The edges are then made at
+/// once, because the engine needs them anyway.
 RunPlan plan_rips(const Rips& rips, const Options& options, const RunContext& context);
 /// The form that can be planned without edges, or nothing if the plan depends on the edges or the
 /// form consists of them. @throws Error (usage) as `plan`.

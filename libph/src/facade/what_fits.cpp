@@ -94,8 +94,8 @@ class Search {
       const AnyComplex complex = make(trial);
       const Estimate e = estimate(complex, options, trial);
       const auto limit = static_cast<double>(context_.memory.limit());
-      // A run on an image in slabs adapts to the limit. If the limit is small, the full allowance
-      // would hide everything else.
+      // A run on an image works in slabs and adapts to the limit. If the limit is small, the full
+      // allowance would be so large that almost every run would seem to fit.
       const bool is_image = std::holds_alternative<Cubical>(complex);
       const double beside = is_image ? std::min(kBesideLimit, limit / 4) : kBesideLimit;
       if (e.bytes_high > limit + beside) return false;
@@ -158,7 +158,7 @@ class Search {
 
   /// Tries a few thresholds, largest first: they leave a half of the edges, a fifth, and so on. If
   /// so few pairs are edges that the sample cannot count them, it tries three quarters of the
-  /// threshold, a half, and so on.…
+  /// threshold, a half, and so on.
   void lower_threshold() {
     const std::optional<double> given = rips_->options().threshold;
     const double highest = given.value_or(std::numeric_limits<double>::infinity());

@@ -107,7 +107,7 @@ Verdict CoverSearch::search_cover(std::uint32_t from, std::uint32_t to, const Ar
     return it->second;
   };
   struct Entry {
-    double estimate;  // least length of a path through the state
+    double estimate;  // lower bound for the length of a path through the state
     std::uint32_t steps, state;
     Distance from_start;
     bool operator>(const Entry& other) const {

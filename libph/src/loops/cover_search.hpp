@@ -44,8 +44,8 @@ class CoverSearch {
   CoverSearch(const EarlyGraph& graph, const EdgeCocycles& cocycles, std::int64_t field,
               const RunContext& context);
 
-  /// Sets which cocycles count from now on, by their numbers, and which values they must have on a
-  /// path.
+  /// Chooses the cocycles that count from now on, by their numbers, and the values that they must
+  /// have on a path.
   void set_target(std::span<const std::uint32_t> cocycles, std::span<const std::uint32_t> values);
 
   /// Finds a path from `from` to `to`, both included, that has the wanted values and is shorter
@@ -74,7 +74,8 @@ class CoverSearch {
   Verdict search_cover(std::uint32_t from, std::uint32_t to, const Around& around, double bound,
                        StepBudget& budget, Path& path);
   bool is_near(std::uint32_t v) const { return stamp_[v] == run_; }
-  /// Adds the values of the cocycles on one more step. @return true if they changed.
+  /// Adds the values of the cocycles on one more step to `values`. @return true if `values`
+  /// changed.
   bool add_step(Values& values, std::uint32_t from, std::uint32_t to, EarlyGraph::Key key) const;
 
   const EarlyGraph& graph_;
@@ -84,7 +85,7 @@ class CoverSearch {
   std::pmr::vector<std::uint32_t> slot_;  // place of each cocycle in Values, or kNone
   std::vector<std::uint32_t> counted_;
   Values target_;
-  // For each vertex: data of the distances to the end that were measured last.
+  // For each vertex: data of the last search for distances to the end.
   std::pmr::vector<std::uint32_t> stamp_, towards_;
   std::pmr::vector<Distance> distance_;
   std::uint32_t run_ = 0;

@@ -47,8 +47,8 @@ class EarlyGraph {
   double last_value() const { return last_value_; }
   /// The number of edges with a value <= `last`, which is the key of the last such edge.
   Key edges_up_to(double last) const {
-    // Edges are sorted only when they are looked at. At most twice the wanted number is therefore
-    // looked at.
+    // Looking at an edge sorts all edges before it. The search therefore starts at the first edge
+    // and doubles its steps, which looks at no edge beyond twice the result.
     const Key all = static_cast<Key>(graph_.edge_count());
     Key low = 0, high = std::min<Key>(1, all);
     while (high < all && graph_.value(high) <= last) {

@@ -18,7 +18,7 @@ class EdgeSum {
   /// Adds a closed walk, given by its vertices. The names of vertices must ascend with their
   /// numbers.
   void add(const EarlyGraph& graph, std::span<const std::uint32_t> walk, std::int64_t coefficient) {
-    if (walk.size() < 2) return;  // nothing is left of the walk
+    if (walk.size() < 2) return;  // the walk has become empty
     for (std::size_t i = 0; i < walk.size(); ++i) {
       const std::uint32_t u = walk[i], v = walk[(i + 1) % walk.size()];
       terms_.push_back({graph.name(std::min(u, v)), graph.name(std::max(u, v)),
@@ -58,8 +58,8 @@ class EdgeSum {
 inline std::vector<Loop> parts_of(std::span<const std::uint32_t> walk, const EarlyGraph& graph,
                                   std::int64_t coefficient, std::int64_t field,
                                   const RunContext& context) {
-  // Sorted by their lists of vertices, which start at the smallest vertex and go on to the smaller
-  // of its two neighbours.
+  // The key of a part is the list of its vertices, which starts at the smallest vertex and
+  // continues with the smaller of that vertex's two neighbours.
   std::map<std::vector<std::uint32_t>, EdgeSum> parts;
   std::vector<std::uint32_t> open;
   const auto close = [&](auto first) {

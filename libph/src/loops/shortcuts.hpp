@@ -8,9 +8,9 @@
 
 namespace ph::detail {
 
-/// Shortens closed walks step by step, each step across one or two triangles whose edges all exist:
-/// the result is homologous over every field. Only edges must be checked, because three edges that
-/// form a clique bound a triangle of the flag complex.
+/// Shortens closed walks step by step. Each step moves the walk across one or two triangles whose
+/// edges all exist, so the result is homologous to the walk over every field. Only edges must be
+/// checked, because three edges that form a clique bound a triangle of the flag complex.
 class Shortcuts {
  public:
   using Walk = std::vector<std::uint32_t>;
@@ -34,8 +34,8 @@ class Shortcuts {
       for (std::size_t i = 1; i + 1 < walk.size();) {
         const Change change = change_at(walk, i, around, budget);
         goes_on |= change != Change::none;
-        // A removal makes two other vertices adjacent, which may allow another change one step
-        // back.
+        // A removal makes two other vertices adjacent, which may make it possible to change the
+        // vertex before them.
         i = change == Change::removed ? std::max<std::size_t>(i, 2) - 1 : i + 1;
       }
       if (!keeps_last_step && walk.size() > 3)  // the first vertex was never the middle one
@@ -105,7 +105,7 @@ class Shortcuts {
   }
 
   const EarlyGraph& graph_;
-  std::pmr::vector<Mark> near_first_, near_middle_;  // for each vertex: the edge from it
+  std::pmr::vector<Mark> near_first_, near_middle_;  // for each vertex: its edge to that vertex
   std::uint64_t stamp_ = 0, first_stamp_ = 0, middle_stamp_ = 0;
 };
 

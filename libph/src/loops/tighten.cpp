@@ -107,7 +107,8 @@ class Tightener {
     return key_of(graph_.vertex_of(edge.numbers[0]), graph_.vertex_of(edge.numbers[1]));
   }
 
-  /// Lists the bars of positive length that have loops, and finds out if each of them has an elder.
+  /// Lists the bars of positive length that have loops, and marks the bars that need cocycles
+  /// because they may have elders.
   std::vector<Candidate> list_candidates(const std::vector<BarLoops>& all) const {
     std::vector<Candidate> candidates;
     for (std::size_t i = 0; i < all.size(); ++i) {
@@ -145,8 +146,9 @@ class Tightener {
            (key < graph_.edges() && graph_.value(key + 1) == value);
   }
 
-  /// Computes cocycles for the bars that need some, or for as many of them as little time allows.
-  /// @return the last death among the bars whose cocycles were computed.
+  /// Computes the cocycles that bars need, but only for the bars that die early enough to keep the
+  /// computation short.
+  /// @return the latest death among the bars that got their cocycles; -infinity if there is none.
   double compute_cocycles(const std::vector<Candidate>& candidates, EdgeCocycles& cocycles) const {
     std::vector<Candidate> asking;  // sorted by birth
     for (const Candidate& c : candidates)
@@ -157,7 +159,7 @@ class Tightener {
     if (asking.empty()) return -kInfinity;
     double reach = -kInfinity;
     for (const Candidate& c : asking) reach = std::max(reach, c.lifetime.death);
-    // For each position in `asking`: the first death from that position on.
+    // For each position in `asking`: the earliest death among the bars from there to the end.
     std::vector<double> first_death(asking.size());
     for (std::size_t i = asking.size(); i-- > 0;)
       first_death[i] = std::min(asking[i].lifetime.death,
@@ -192,7 +194,8 @@ class Tightener {
     return -kInfinity;
   }
 
-  /// The largest value up to which the complex has few enough triangles.
+  /// The value of the first edge at which the estimated cofacets of all edges so far exceed
+  /// kMostCofacets; infinity if there is no such edge.
   double last_affordable_value() const {
     std::pmr::vector<std::uint32_t> degrees(static_cast<std::size_t>(all_.size()), 0,
                                             &context_.memory);
@@ -247,15 +250,15 @@ class Tightener {
     Walk path;
     const Verdict verdict = search.find(high, low, around, bound, budget, path);
     if (verdict == Verdict::found) {
-      // Moves the last vertex of the path, which is the first vertex of the walk, to the front. The
-      // walk then begins with the birth edge.
+      // Moves the last vertex of the path to the front. The closed walk then begins with the birth
+      // edge.
       std::rotate(path.begin(), path.end() - 1, path.end());
       EdgeSum found(options_.field);
       found.add(graph_, path, coefficient);
       std::vector<Loop> loops = found.loops(context_);
       measure(loops);
-      // Over Z/p, the loops from splitting the sum of edges may be longer than the walk. The parts
-      // of the walk are never longer.
+      // Over Z/p, the loops that result from splitting the sum of edges may be longer than the
+      // walk. The parts of the walk are never longer.
       std::vector<Loop> parts = parts_of(path, graph_, coefficient, options_.field, context_);
       measure(parts);
       // mutant: loops-taken-apart
@@ -279,9 +282,9 @@ class Tightener {
     return false;
   }
 
-  /// Computes the values that the cocycles that count must have on a path that closes the birth
-  /// edge to a loop.
-  /// @return the coefficient of that edge in the chain.
+  /// Sets the target of the search: the cocycles that count, and the values that they must have on
+  /// a path that forms a loop with the birth edge.
+  /// @return the coefficient of the birth edge in the chain.
   std::int64_t set_target(const Candidate& c, const InputChain& chain, const EdgeCocycles& cocycles,
                           CoverSearch& search) const {
     const std::int64_t p = options_.field;

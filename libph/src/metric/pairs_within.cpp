@@ -33,8 +33,8 @@ struct SearchSpace {
 void visit_in_cubes(const SearchSpace& space, const PointMetric& metric, double radius,
                     const Visit& visit, const RunContext& context) {
   const CubeList cubes(space.points, space.radius, context);
-  // Most candidates are too far apart by more than rounding errors, which their squares show
-  // without a root.
+  // Most candidates are so far apart that comparing squares is enough, despite rounding errors.
+  // They need no root.
   const double far =
       std::max(space.radius * space.radius, PointMetric::kLeastPlainSquare) * (1 + 1e-12);
   cubes.for_each_candidate_pair(
@@ -102,8 +102,8 @@ void for_each_pair_within(PointsView points, double radius, const Visit& visit,
     throw Error(ErrorKind::usage, fmt::format("radius: found {}, expected a number >= 0", radius));
   }
   const PointMetric metric(points);
-  // Measured: computing all pairs of this few points takes little time, because many are computed
-  // at once. For some inputs a tree takes longer.
+  // Measured: for this few points, computing all pairs takes little time, because many distances
+  // are computed at once. For some inputs, a tree would take longer.
   constexpr Index few = 1 << 14;
   // The squares of smaller distances underflow, and one cube would hold all such points.
   constexpr double tiny = 1e-139;

@@ -24,8 +24,8 @@ struct Split {
   int shift;                           // position of the digit
 };
 
-// Divides edges whose values agree in the bits from `shift` on by their next lower bits, into about
-// as many parts as there are edges.
+// Divides edges by the bits just below `shift`, into about as many parts as there are edges. The
+// values of all edges must agree in the bits at and above `shift`.
 Split split(std::span<FlagEdge> edges, int shift, FlagEdges& buffer) {
   constexpr int most_bits = 12;  // keeps the counts in the cache
   const int bits = std::min({most_bits, shift, static_cast<int>(std::bit_width(edges.size()))});
@@ -192,8 +192,8 @@ void EdgeBinner::allocate(double limit) {
 BinnedEdges EdgeBinner::finish() {
   const std::size_t last = bin_of_(limit_);
   const auto ends = std::span(counts_).subspan(begin_of(workers_ - 1), last + 1);
-  // The last bin has gaps, because not all of its edges were within the limit. The parts of the
-  // workers are moved together.
+  // The last bin has gaps, because not all of its edges were within the limit. The edges that each
+  // worker put there are moved together.
   auto to = edges_.begin() + static_cast<std::ptrdiff_t>(last == 0 ? 0 : ends[last - 1]);
   for (std::size_t w = 0; w < workers_; ++w)
     // mutant: last-bin

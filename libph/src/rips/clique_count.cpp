@@ -93,8 +93,8 @@ class CliqueCounter {
     Set set(&context_.memory), next(&context_.memory);
     Ticker ticker(context_, "cells", samples);
     for (std::size_t i = 0; i < samples; ++i) {
-      // Takes one edge from each of equal pieces of the order, which samples short and long edges
-      // in proportion.
+      // Takes one edge from each of several equally long pieces of the order. Short and long edges
+      // are therefore sampled in proportion.
       const std::size_t begin = i * edges / samples, end = (i + 1) * edges / samples;
       const FlagEdge& e = graph_.edges()[begin + (end > begin ? below(end - begin) : 0)];
       intersect(neighbours_.of(e.u), neighbours_.of(e.v), set);

@@ -22,18 +22,18 @@
 
 namespace ph {
 
-/// H0 to H3 of a Vietoris-Rips filtration, edge by edge; triangles are never listed.
+/// Computes H0 to H3 of a Vietoris-Rips filtration edge by edge; triangles are never listed.
 ///
 /// The triangles that enter with an edge e = (u,v) are those over its link, the vertices already
 /// joined to both u and v. All triangles over one connected component of the link are equivalent:
 /// one triangle per component carries H1 (Koyama, Mémoli, Robins, Turner, Faster computation of
 /// degree-1 persistent homology using the reduced Vietoris-Rips filtration). If the link is empty,
-/// e joins two components or gives birth to a class. Otherwise the first triangle determines the
-/// annotation of e, and for each further component w the sum a(u,w) + a(w,v) should be the same; if
-/// it is not, the youngest generator of the difference dies. Almost all edges end earlier: if no
-/// edge between u or v and the link is active, that is, has an annotation, nothing can happen. If a
-/// further component kills nothing, a class of H2 is born. See LinkLoops, LinkSurfaces, LinkVolumes
-/// and docs/explanation/engines/edge-links.md.
+/// e joins two components or gives birth to a class. Otherwise, the first triangle determines the
+/// annotation of e. For a vertex w of each further component, the sum a(u,w) + a(w,v) should equal
+/// that annotation. If it does not, the youngest generator of the difference dies. If a further
+/// component kills nothing, a class of H2 is born. An edge is *active* if it has an annotation that
+/// is not zero. For almost all edges, no edge between u or v and the link is active, and nothing
+/// can happen. See LinkLoops, LinkSurfaces, LinkVolumes and docs/explanation/engines/edge-links.md.
 template <Field K>
 class EdgeLinkSweep {
  public:
@@ -88,11 +88,11 @@ class EdgeLinkSweep {
   const RunContext& context_;
   const LinkLayout layout_;
   ActiveEdges active_;         // edges with a non-zero annotation
-  LinkGraph graph_;            // edges so far, without the skipped bins from first_unadded_bin_ on
+  LinkGraph graph_;            // edges so far, except the skipped ones that were not added yet
   LinkComponents components_;  // components of the graph's link
   std::pmr::vector<std::size_t> born_;  // components with which a class of H2 is born
   std::size_t first_unadded_bin_ = 0;
-  std::pmr::vector<std::uint32_t> age_;  // of each vertex
+  std::pmr::vector<std::uint32_t> age_;  // age of each vertex
   DisjointSets sets_;                    // each root is the oldest vertex of its component
   LinkLoops<K> loops_;
   std::optional<LinkSurfaces<K>> surfaces_;

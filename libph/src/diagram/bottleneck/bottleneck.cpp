@@ -28,7 +28,7 @@ class TwoSides {
   TwoSides(const DiagramParts& a, const DiagramParts& b, const RunContext& context)
       : there_(a.finite, b.finite, context), back_(b.finite, a.finite, context) {}
 
-  /// @param least a lower bound for the distance.
+  /// Computes bounds of the distance. @param least a lower bound that is already known.
   DistanceBounds bounds(double least, const DistanceLimits& limits) {
     const double lower = back_.lower_bound(there_.lower_bound(least));
     DistanceBounds bounds = there_.narrow({lower, lower}, limits);

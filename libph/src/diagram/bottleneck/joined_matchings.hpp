@@ -9,10 +9,10 @@
 
 namespace ph::diagram {
 
-/// Merges two matchings into one that covers the long bars of both diagrams. The first of the two
-/// must cover all long bars of the first diagram, the other all long bars of the second. The pairs
-/// of the two matchings form paths and cycles on which the matchings alternate. On each path, one
-/// of the two matchings covers all long bars (Mendelsohn and Dulmage).
+/// Merges two matchings into one that covers the long bars of both diagrams. The first matching
+/// must cover all long bars of the first diagram, and the second matching all long bars of the
+/// second diagram. The pairs of the two matchings form paths and cycles on which the matchings
+/// alternate. On each path, one of the two matchings covers all long bars (Mendelsohn and Dulmage).
 class JoinedMatchings {
  public:
   using Mates = std::span<const std::uint32_t>;
@@ -26,8 +26,8 @@ class JoinedMatchings {
   /// @return the partner of each bar of the first diagram, or kNone.
   std::vector<std::uint32_t> join() {
     partners_.assign(mates_[0][0].size(), kNone);
-    // Follows paths first, from their ends, which have a pair in only one matching. Only cycles are
-    // left after that.
+    // Follows the paths first, starting at their ends: the bars that have a pair in only one of the
+    // matchings. After that, only cycles are left.
     for (const bool ends : {true, false})
       for (std::size_t side : {0U, 1U})
         for (std::uint32_t i = 0; i < mates_[0][side].size(); ++i) {

@@ -24,7 +24,7 @@ double OneSidedMatching::lower_bound(double bound) {
     ticker_.work();
     const PointsLeft::Nearest nearest = free_->nearest(p, alone);
     bound = std::max(bound, nearest.distance);
-    // If no bar is closer than the diagonal, any position will do.
+    // If no bar is closer than the diagonal, searches may start at any position.
     candidates_.push_back({p, alone, place, nearest.position == kNone ? 0 : nearest.position});
   }
   return bound;
@@ -51,7 +51,7 @@ DistanceBounds OneSidedMatching::narrow(const DistanceBounds& bounds,
   };
   if (!is_done() && limits.at_most >= found.lower && limits.at_most < found.value)
     probe(limits.at_most);
-  // If this radius turns out to be possible, the search is over.
+  // The radius to try next. If all long bars can be paired within it, the search is over.
   const auto last = [&] {
     return std::max(found.lower * (1 + limits.relative_error), std::min(bounds.value, found.value));
   };

@@ -25,11 +25,11 @@ class OneSidedMatching {
   /// radius. Must be called before `narrow`.
   double lower_bound(double bound);
 
-  /// Narrows down the least radius >= bounds.lower at which all bars farther than the radius from
-  /// the diagonal can be paired with bars within the radius. Stops when the accuracy suffices, or
-  /// when the radius is known to be at most bounds.value.
+  /// Narrows down the least radius r >= bounds.lower with this property: all bars farther than r
+  /// from the diagonal can be paired with bars at a distance of at most r. Stops when the accuracy
+  /// suffices, or when r is known to be at most bounds.value.
   /// @param bounds bounds.lower must be at least the result of lower_bound. @return the bounds of
-  /// that least radius.
+  ///        r.
   DistanceBounds narrow(const DistanceBounds& bounds, const DistanceLimits& limits);
 
   /// Finds a matching for a radius at which one exists.
@@ -50,14 +50,14 @@ class OneSidedMatching {
     Position nearest;
   };
 
-  /// Pairs all long bars within the radius and returns nothing, if this is possible. Otherwise
-  /// returns a larger radius, the least at which it might become possible: the bars of a tree of
-  /// alternating paths that can no longer grow have too few partners (Hall).
+  /// Tries to pair all long bars within the radius, and returns nothing if this succeeds. Otherwise
+  /// returns a larger radius, below which pairing is impossible: by Hall's theorem, the bars of a
+  /// tree of alternating paths that can no longer grow have too few possible partners.
   std::optional<double> hall_bound(double radius);
   /// Removes pairs that are too far apart, and pairs of short bars.
   void keep_pairs_within(double radius);
-  /// Pairs long bars that have no partner with free bars. @return the bars for which no free bar is
-  /// near.
+  /// Pairs long bars that have no partner with free bars. @return the long bars that are left
+  /// without a partner because no free bar lies within the radius.
   std::vector<Number> pair_with_free(double radius);
   /// Looks for disjoint alternating paths to free bars, one after another, depth first.
   /// @param roots bars without a partner; those that find a partner are removed.
@@ -78,14 +78,14 @@ class OneSidedMatching {
   const RunContext& context_;
   Ticker ticker_;
   std::vector<Candidate> candidates_;  // sorted by the positions of their nearest bars
-  std::vector<Position> partner_;      // of each candidate
-  std::optional<PointTree> tree_;      // of to_, unless to_ is empty
+  std::vector<Position> partner_;      // partner of each candidate, or kNone
+  std::optional<PointTree> tree_;      // tree of to_; absent if it is not needed
   std::vector<Number> paired_with_;    // candidate paired with each position
   std::optional<PointsLeft> free_, unseen_;
   std::vector<Number> nodes_;         // nodes of the trees that grow_trees has grown
-  std::vector<Number> root_of_;       // of each candidate in nodes_
+  std::vector<Number> root_of_;       // for each candidate in nodes_: the root of its tree
   std::vector<Number> reached_from_;  // candidate from which each position was reached
-  std::minstd_rand random_;           // always the same sequence
+  std::minstd_rand random_;           // has a fixed seed, which makes results reproducible
 };
 
 }  // namespace ph::diagram

@@ -41,8 +41,8 @@ class PointsLeft {
     return (left_[leaf] >> (q - tree_.begin(leaf)) & 1U) != 0;
   }
   void remove(Position q);
-  /// Removes one point at a distance of at most `radius` from p. Points near `near` in the order of
-  /// the tree are tried first. @return its position, or kNone if there is none.
+  /// Removes one remaining point at a distance of at most `radius` from p. Tries positions close to
+  /// `near` first. @return the position of that point, or kNone if no such point remains.
   Position take(const Point& p, double radius, Position near);
 
   /// Removes all points at a distance of at most `radius` from p, and calls `visit(position)` for
@@ -66,8 +66,8 @@ class PointsLeft {
  private:
   using Node = PointTree::Node;
 
-  /// Updates the ancestors of a node that may have become zero, up to the first ancestor that still
-  /// has points.
+  /// To be called when the byte of a node may have become zero: updates the node's ancestors, up to
+  /// the first one that still has points.
   void empty_above(Node node) {
     while (node > 1 && left_[node] == 0) {
       node /= 2;

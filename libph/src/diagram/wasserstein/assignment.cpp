@@ -11,8 +11,8 @@ Assignment::Side::Side(std::span<const Point> points, std::size_t others, const 
     : tree(points, context), prices(tree, cost, context), partner(points.size(), kNone) {
   for (Position q = 0; q < points.size(); ++q) {
     alone.push_back(std::min(cost.alone(tree.point(q)), most));
-    // The search begins at the same relative position, because both trees are divided along nearly
-    // the same axes.
+    // The first search begins at the same relative position of the other tree, because both trees
+    // are divided along nearly the same axes.
     near.push_back(static_cast<Position>(std::uint64_t{q} * others / points.size()));
   }
 }

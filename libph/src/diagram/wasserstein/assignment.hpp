@@ -28,7 +28,7 @@ class Assignment {
     PointTree tree;
     WeightedTree prices;
     std::vector<double> alone;      // cost of each point without a partner
-    std::vector<Position> partner;  // in the other tree, or kNone
+    std::vector<Position> partner;  // position in the other tree, or kNone
     std::vector<Position> near;     // position in the other tree where a search begins
 
     Side(std::span<const Point> points, std::size_t others, const GroundCost& cost, double most,
@@ -66,7 +66,7 @@ class Assignment {
     sides_[1 - k].partner[y] = kNone;
     y = kNone;
   }
-  /// Raises the price of x of side k as high as is feasible.
+  /// Raises the price of point x of side k to the highest feasible value.
   void raise_price(std::size_t k, Position x);
 
   /// The matching costs `cost`, and no matching costs less than `lower`, with an allowance for

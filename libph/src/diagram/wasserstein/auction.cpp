@@ -10,7 +10,8 @@ namespace {
 /// Ratio of one increment to the next.
 constexpr double kStep = 6;
 
-/// After this many bids per bar, the first round takes larger steps.
+/// In the first round, the increment is raised each time that this many bids per bar have been
+/// made.
 constexpr std::uint64_t kBidsAStep = 3;
 
 /// An upper bound for the rounding error of cost - price. A bid that is lower by this amount is
@@ -40,17 +41,18 @@ bool Auction::run(const std::function<bool(const Assignment::Costs&)>& is_enough
       alone += cost;
       ++count;
     }
-  // The cost of a pair is usually about as large as the first prices, which are zero for equal
-  // diagrams.
+  // The first increment is the mean of the first prices, because the cost of a pair is usually
+  // about that large. For equal diagrams, these prices are zero. The increment is therefore at
+  // least a thousandth of the mean cost of a point without a partner.
   increment_ = std::max(assignment_.costs().lower, 1e-3 * alone) / static_cast<double>(count);
-  // If many points bid for few, prices must rise far. The first round may therefore take larger
-  // steps.
+  // If many points bid for few partners, prices must rise far. The first round may therefore raise
+  // the increment up to this limit.
   most_increment_ = std::max(increment_, alone / static_cast<double>(count));
   for (;;) {
     if (!round(most_bids)) return false;
     const Assignment::Costs costs = assignment_.costs();
-    // The cost of a pair exceeds its prices by at most the increment. When that is this small, all
-    // else is rounding.
+    // The cost of a pair exceeds the sum of its two prices by at most the increment. Once the
+    // increments of all points together are this small, only rounding errors are left.
     if (is_enough(costs) || increment_ * static_cast<double>(count) <= 1e-14 * costs.cost)
       return true;
     increment_ /= kStep;

@@ -24,8 +24,8 @@ class Auction {
  private:
   using Position = PointTree::Position;
 
-  /// Settles all points at increment_, which may rise to most_increment_. @return false if there
-  /// are too many bids.
+  /// Lets points bid until each of them has a partner or stays alone. The increment may rise from
+  /// increment_ to most_increment_. @return false if there are too many bids.
   bool round(std::uint64_t most_bids);
   /// Point x bids for its best partner, and so does every point that is outbid.
   /// @return false if there are too many bids.
@@ -34,7 +34,7 @@ class Auction {
   Assignment& assignment_;
   Ticker ticker_;
   double increment_ = 0, most_increment_ = 0;
-  std::uint64_t bids_ = 0, most_bids_ = 0, next_step_ = 0;  // bids in this round
+  std::uint64_t bids_ = 0, most_bids_ = 0, next_step_ = 0;  // counts of bids in a round
 };
 
 }  // namespace ph::diagram

@@ -13,7 +13,8 @@ namespace {
 
 constexpr double kGone = -std::numeric_limits<double>::infinity();
 
-/// Grows one tree of shortest paths after the other, for the reduced costs (Dijkstra).
+/// Grows trees of shortest paths (Dijkstra), one after another. The length of a step is its reduced
+/// cost: the cost minus the prices.
 class ShortestPaths {
  public:
   using Position = PointTree::Position;
@@ -28,7 +29,8 @@ class ShortestPaths {
     for (Position y = 0; y < other_.tree.size(); ++y) other_.prices.set(y, other_.alone[y]);
   }
 
-  /// Pairs x, or leaves x or another point alone.
+  /// Extends the matching to x: either x gets a partner, or x or another point of its set stays
+  /// alone.
   void add(Position x) {
     assignment_.raise_price(0, x);
     nodes_.clear();
@@ -39,7 +41,7 @@ class ShortestPaths {
       step = steps_.top();
       steps_.pop();
       if (step.to == kNone) break;
-      // Another path reached this point first.
+      // Another path has already reached this point.
       if (other_.prices.weight(step.to) == kGone) {
         add_step(step.node);
         continue;
@@ -58,14 +60,15 @@ class ShortestPaths {
   }
 
  private:
-  /// A point x that was reached through its partner y; the first point has no y.
+  /// A point x of the tree, which was reached through its partner y. At the root of the tree, y is
+  /// kNone.
   struct Node {
     Position x, y;
-    double length;  // length of the path
-    double price;   // former price of y
+    double length;  // length of the path from the root
+    double price;   // price of y before y was reached
   };
-  /// A step from a node to a point of the other side. `to` is kNone if the point of the node stays
-  /// alone.
+  /// A step from a node to the point `to` of the other set. If `to` is kNone, the step leaves the
+  /// node's own point without a partner.
   struct Step {
     double length;
     std::size_t node;

@@ -29,8 +29,8 @@ constexpr double kRounding = 1e-13;
 // repeated.
 constexpr double kUnsure = 1e-9;
 
-// Repeating the search in a smaller unit is worthwhile if the unit's power shrinks by at least this
-// factor.
+// The search is repeated in a smaller unit of length only if this divides the power of the unit by
+// at least this factor.
 constexpr double kFiner = 16;
 
 // The largest number of bids per bar in a round. Auctions without bidding wars over equal bars need
@@ -148,7 +148,7 @@ class Comparison {
   }
 
  private:
-  /// True if powers have not underflowed beside the power of the most expensive bar.
+  /// False if the total cost is so small that powers of lengths may have underflowed.
   static bool has_digits(const Assignment::Costs& costs) {
     return costs.cost >= std::numeric_limits<double>::min();  // mutant: wasserstein-vanishes
   }
@@ -172,9 +172,10 @@ class Comparison {
     return assignment.costs();
   }
 
-  /// Prices are rounded relative to the most expensive bar. If a matching costs far less than that
-  /// bar, these prices do not prove it optimal. The search is therefore repeated among matchings
-  /// that cost no more than about this one, in a unit of their size.
+  /// Prices are rounded relative to the cost of the most expensive bar. If a matching costs far
+  /// less than that bar, such prices do not prove that it is optimal. The search is therefore
+  /// repeated in a unit of about the size of the distance found, and among matchings that cost no
+  /// more than about this one.
   DistanceBounds refined(double unit_length, DistanceBounds found) {
     const double rays = norm_of(rays_, options_.order);
     const auto with_rays = [&](double length) {

@@ -39,8 +39,8 @@ class WeightedTree {
 
   const PointTree& tree_;
   const GroundCost& cost_;
-  std::pmr::vector<double> weights_;  // of each position
-  std::pmr::vector<double> largest_;  // of each node
+  std::pmr::vector<double> weights_;  // weight of each position
+  std::pmr::vector<double> largest_;  // largest weight in each node
 };
 
 }  // namespace ph::diagram

@@ -18,10 +18,10 @@
 namespace ph {
 namespace {
 
-/// The number of points to draw, unless the user chooses it. More points cost time in each part.
-/// With fewer points, more points of the cloud count as near a block: for a cloud that fills three
-/// dimensions, a share of (blocks / sample)^1/3. All parts compute the same number and therefore
-/// draw the same points.
+/// The number of points to draw, unless the user chooses it. If more points are drawn, each part
+/// takes longer. If fewer points are drawn, more points of the cloud count as near a block: for a
+/// cloud that fills three dimensions, a share of (blocks / sample)^1/3. All parts compute the same
+/// number and therefore draw the same points.
 Index points_to_draw(Index points, double blocks) {
   constexpr double least_a_block = 64, most = 1 << 28;
   const double n = static_cast<double>(points);
@@ -100,7 +100,7 @@ CloudPartForecast CloudPart::forecast(PointsView points, int parts,
   forecast.memory = {60 * of_block + 16 * of_part, small + 700 * of_block + 24 * of_part};
   forecast.file = {16 * of_part, 1024 + 50 * of_part};
   forecast.join = {24 * n, small + 64 * n};
-  // If parts are joined along a tree, half of them are sent at each step.
+  // If parts are joined along a tree, half of the remaining parts are sent at each step.
   forecast.sent = {16 * (n - of_part), 25 * n * std::ceil(std::log2(parts)) + 1024.0 * (parts - 1)};
   return forecast;
 }
@@ -168,8 +168,8 @@ Rips CloudPart::rips(const RunContext& context) const& {
   return CloudPart(std::move(copy)).rips(context);
 }
 
-// Each part left out edges because other edges, which it claimed to be in the forest, join their
-// ends. The entire forest must fulfil all these claims.
+// A part leaves out an edge if other edges join its ends. If the part has only claimed that these
+// edges are in the forest, the entire forest must fulfil the claim.
 void CloudPart::State::check_joined() const {
   const bool is_spanning =
       whole.limit < kInfinity ||

@@ -52,7 +52,7 @@ ImageLoops::ImageLoops(ImagePart& part, std::int64_t field, const RunContext& co
     throw Error(ErrorKind::usage,
                 "loops of an image: found a part without loops, or one that was used already, "
                 "expected a part that was computed with option loops");
-  detail::with_field(field, [](const auto&) {});  // throws an invalid field before the part is used
+  detail::with_field(field, [](const auto&) {});  // throws an Error if the field is invalid
   state_ = std::make_unique<State>(*part.state_, *std::exchange(part.state_->own, std::nullopt),
                                    field, context);
 }

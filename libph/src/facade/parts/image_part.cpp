@@ -59,8 +59,8 @@ std::uint64_t layers_of(const GridShape& shape) {
   return shape.axis(shape.layer_axis()).extent;
 }
 
-/// The lowest min_dim for which the graph of top cells is enough. Each periodic axis with one voxel
-/// raises it, because such an axis copies all bars one dimension up.
+/// The lowest min_dim for which the graph of top cells is enough. Each periodic axis with a single
+/// voxel raises it by one, because such an axis repeats every bar one dimension higher.
 int lowest_of_top_cells(const GridShape& shape) {
   return shape.top_dim() - 1 + static_cast<int>(shape.loop_count());
 }
@@ -170,8 +170,8 @@ ImagePart::ImagePart(const Image& image, int part, int parts, const ImagePartOpt
   const cubical::BarSink sink = state_->sink(state_->bars);
   cubical::PairSink pairs(shape, options.cells, sink);
   if (state_->whole.loops) {
-    // Loops need the lower stars of all voxels of the part at once. They are therefore computed
-    // only once, for all bars.
+    // Loops need the lower stars of all voxels of the part at once. These stars are therefore
+    // computed once and used for all bars.
     auto& own = state_->own.emplace(cubical, layout, part, context);
     state_->pairs.add(own.stars, layout.first_voxel(part), pairs, &own.free);
   } else {
@@ -225,7 +225,8 @@ void ImagePart::join(ImagePart next, const RunContext& context) {
                 fmt::format("parts of an image: found part {} after part {}, expected part {}",
                             next.first() + 1, last() + 1, last() + 2));
   context.poll();
-  // In the T construction, parts come in the opposite order.
+  // In the T construction, parts are ordered the other way round: the next part comes before this
+  // one.
   const bool come_before = state_->shape.is_t_construction();  // mutant: part-turned
   const cubical::BarSink sink = state_->sink(state_->bars);
   cubical::PairSink pairs(state_->shape, state_->whole.cells, sink);

@@ -38,8 +38,8 @@ bool exchange(ImageLoops& loops, int parts, Post& post) {
     is_any_busy = is_any_busy || bytes[0] != std::byte{0};
     if (bytes.size() > 1) loops.receive(std::span(bytes).subspan(1));
   };
-  // A rank may have to wait until another one receives its message: of two ranks the lower one
-  // therefore sends first, and each goes through the others in ascending order.
+  // A rank that sends may have to wait until the other rank receives. Of two ranks, the lower one
+  // therefore sends first, and each rank goes through the others in ascending order.
   for (int other = 0; other < parts; ++other) {
     if (other == rank) continue;
     if (rank < other) send(other);

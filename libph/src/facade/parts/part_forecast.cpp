@@ -30,7 +30,7 @@ class LayerSample {
         width_(shape.axis(shape.axis_count() - 1).extent) {}
 
   std::vector<double> minima() const {
-    constexpr std::uint64_t few = 64;  // one of this many layers is read
+    constexpr std::uint64_t few = 64;  // one layer in this many is read
     const std::uint64_t step = std::clamp<std::uint64_t>(layers_ / few, 1, 16);
     std::vector<double> shares(layers_);
     for (std::uint64_t z = 0; z < layers_; z += step) {
@@ -79,9 +79,9 @@ double cost(double minima, bool loops) {
   return 1 + (loops ? of_loops : of_components) * minima;
 }
 
-/// An upper bound for the bytes that are sent across a border for columns of loops, per minimum in
-/// the adjacent layers. It holds for noise, where columns grow with the volume and cross the border
-/// often. Measured on 256³ and 512³ voxels.
+/// An upper bound for the bytes that the columns of loops send across a border between parts, per
+/// minimum in the adjacent layers. It holds for noise, where columns grow with the volume and often
+/// cross the border. Measured on 256³ and 512³ voxels.
 double bytes_across(double layer_size) {
   constexpr double of_small = 20000, small = 256, power = 3.5;
   return of_small * std::pow(std::max(1.0, std::sqrt(layer_size) / small), power);
@@ -97,7 +97,7 @@ std::vector<Index> cut(const std::vector<double>& costs, int parts) {
     before += costs[static_cast<std::size_t>(i)];
     const auto next = static_cast<int>(begins.size());
     const bool is_enough = before >= all * next / parts;
-    // Only one item per piece is left.
+    // True if each remaining piece must get exactly one of the remaining items.
     const bool must = size - (i + 1) == static_cast<Index>(parts - next);
     if (is_enough || must) begins.push_back(i + 1);  // mutant: part-last-layers
   }
@@ -126,8 +126,8 @@ ImagePartForecast ImagePart::forecast(const Image& image, int parts,
   const bool tops = whole.loops || cubical::wants_top_cells(shape, whole.wanted());
   const auto layer_size = static_cast<double>(layout.layer_size());
   // Bytes, measured on noise, waves and blurred noise of 128³ to 512³ voxels. A seam stores values,
-  // roots, and components that may still be joined there. Each minimum gives a bar, and on average
-  // a fixed number of bars in the other graph and among loops.
+  // roots, and components that may still be joined there. Each minimum gives one bar. The other
+  // graph and the loops give, on average, a fixed number of bars per minimum.
   const double seam = layer_size * ((vertices ? 48 : 0) + (tops ? 25 : 0));
   const double bar = whole.cells ? 72 : 24;
   const double bars = bar * ((vertices ? 1 : 0) + (tops ? 0.3 : 0)),

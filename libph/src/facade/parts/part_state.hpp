@@ -32,7 +32,7 @@ struct WholeImage {
   int parts, min_dim, max_dim;
   bool cells;
   bool loops;                            ///< true if bars are wanted that neither graph gives
-  std::vector<Index> first_layers = {};  ///< of each part; empty for parts of equal size
+  std::vector<Index> first_layers = {};  ///< of each part; empty if parts have equal size
 
   friend bool operator==(const WholeImage&, const WholeImage&) = default;
   /// The image without its voxels.
@@ -131,7 +131,7 @@ struct ImagePart::State {
   cubical::GridShape shape;
   int first = 0, last = 0;
   cubical::LayerPairs pairs;
-  cubical::FreeCells freed;               // found by joins; cells found by a part stay in `own`
+  cubical::FreeCells freed;               // free cells found by joins; `own` has those of a part
   std::optional<cubical::OwnLayers> own;  // only in a single part, until ImageLoops takes it
   Barcode bars;                           // not sorted yet
   MemoryClaim claim;

@@ -20,16 +20,16 @@ inline double squared_distance(const double* x, const double* y, Index axes) {
   for (Index k = 0; k < axes; ++k) sum += (x[k] - y[k]) * (x[k] - y[k]);
   return sum;
 }
-/// If the computed square of a gap between two points exceeds this, their distance exceeds the root
-/// of `square`. Sums of squares have a relative error of (axes + 2) · 2^-53, or an arbitrary one
-/// below 1e-280. The bound need not be tight.
+/// A bound for computed squares of gaps. If the square computed for two points exceeds it, their
+/// distance exceeds the root of `square`. A sum of squares has a relative error of at most (axes +
+/// 2) · 2^-53; below 1e-280, the error is arbitrary. The bound need not be tight.
 inline double reach_of(double square) {
   constexpr double slack = 1 + 1e-12, least = 4 * kSmallestPlain * kSmallestPlain;
   return std::max(square, least) * slack;
 }
 
-/// For each cell: the box around all or some points of the cell, and their largest distance from
-/// the sample point of the cell.
+/// For each cell: the box around all or some of its points, and the largest distance of these
+/// points from the sample point of the cell.
 class CellBoxes {
  public:
   /// @param count the number of boxes.

@@ -30,9 +30,9 @@ class CloudBlocks {
   static std::uint64_t fingerprint_of(PointsView points);
   /// Number of points in the blocks.
   Index size() const { return size_; }
-  /// All edges of the minimum spanning forest of the cloud that have an end in the block and that
-  /// this block must find, and possibly others. docs/explanation/engines/cloud-parts.md explains
-  /// claims.
+  /// Contains all edges that this block must find: edges of the cloud's minimum spanning forest
+  /// that have an end in the block. May contain other edges as well.
+  /// docs/explanation/engines/cloud-parts.md explains claims.
   NumberedForest forest(std::uint32_t block, double limit, const RunContext& context) const;
 
  private:

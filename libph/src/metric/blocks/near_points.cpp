@@ -109,8 +109,8 @@ bool NearPoints::mark(Node node, const CellRegions& regions) {
   return left || right;
 }
 
-// The caller only compares the gap with the result. Bottlenecks between cells take time and are
-// computed only if the gap does not decide the comparison without them.
+// The caller only compares the gap with the result. The bottleneck between two cells takes time to
+// compute. It is therefore computed only if the comparison depends on it.
 double NearPoints::reach(Node own, double square, double within, SampleTree::Cell cell,
                          double gap) const {
   const double least = reach_of(

@@ -10,9 +10,9 @@
 
 namespace ph {
 
-/// Bounds for the position of all points of a cloud, from the splits of the tree and a box around
-/// all points: for each node of the tree, a box and the largest possible distance from a point of
-/// the box to the sample.
+/// For each node of the tree: a box around all points of the cloud that can lie in the node, and
+/// the largest possible distance from a point of that box to the sample. Both follow from the
+/// splits of the tree and from a box around all points of the cloud.
 class CellRegions {
  public:
   /// @param box around all points: the smallest and the largest coordinate on each axis.

@@ -23,7 +23,8 @@ struct NumberedForest {
   /// already hold are left out.
   FlagEdges claims;
 
-  /// Joins another forest into this one. @param context counts the memory needed meanwhile.
+  /// Joins another forest into this one. @param context counts the memory that is needed during the
+  /// call.
   /// @throws Error (resource) if together they have 2^32 - 1 points or more.
   void join(NumberedForest other, const RunContext& context);
   /// Keeps the edges that Kruskal's algorithm takes, and the claims that are still open.

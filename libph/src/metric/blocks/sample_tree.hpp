@@ -77,7 +77,9 @@ class SampleTree {
     std::uint32_t axis;
     std::uint32_t point;  // first point on the right: its row in drawn_, later its cell
   };
-  /// Compares coordinates from the axis of the split on, then the coordinates before that axis.
+  /// True if x comes before the first point on the right. Coordinates are compared one after
+  /// another, beginning at the axis of the split; after the last axis, the comparison goes on at
+  /// the first.
   bool precedes(const double* x, const Split& split) const;
   void draw(PointsView points, std::size_t sample, const RunContext& context);
   void split(Range cells, Range blocks, std::span<std::uint32_t> order);
@@ -117,9 +119,9 @@ class Bottlenecks {
     }
     return longest;
   }
-  /// The square of twice the least bottleneck between a cell and another cell: points of the cell
-  /// at a distance of at most its root from the sample can have no longer edges because of that
-  /// distance.
+  /// The square of twice the least bottleneck between this cell and another cell. If a point of the
+  /// cell is at most as far from the sample as the root of this, its distance from the sample does
+  /// not make longer edges possible.
   double square_around(SampleTree::Cell cell) const {
     const double twice = 2 * first_[cell];
     return twice * twice;

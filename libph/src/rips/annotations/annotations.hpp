@@ -173,7 +173,8 @@ class Annotations {
   bool are_opposite(std::uint32_t a, std::uint32_t b) const {
     return vectors_[a].back().coefficient() != vectors_[b].back().coefficient();
   }
-  /// The class that a former class is now, with dead generators substituted.
+  /// The present form of a class that was returned earlier: dead generators are substituted, and
+  /// the class may have been merged into another.
   Class resolve(Class a);
   /// Follows the links of classes that became equal to others. DisjointSets cannot be used, because
   /// a link has a sign.
@@ -217,9 +218,9 @@ class Annotations {
   const K& field_;
   ActiveEdges& edges_;
   const bool keeps_values_;
-  std::pmr::vector<std::uint32_t> births_;            // of each generator
-  std::pmr::vector<Vector> vectors_;                  // of each class
-  std::pmr::vector<std::size_t> hashes_;              // of each class
+  std::pmr::vector<std::uint32_t> births_;            // birth of each generator
+  std::pmr::vector<Vector> vectors_;                  // vector of each class
+  std::pmr::vector<std::size_t> hashes_;              // hash of each class
   std::pmr::vector<std::pmr::vector<Edge>> members_;  // edges of each class
   // For each class: the class that it became, or the class itself as long as it exists.
   std::pmr::vector<Class> links_;

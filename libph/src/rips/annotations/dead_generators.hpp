@@ -132,8 +132,8 @@ class DeadGenerators {
     else
       sum.add(c.terms, scale, field_);
   }
-  /// The combination of a dead generator. Later deaths are substituted in it for good, which saves
-  /// work for the next caller.
+  /// The combination that replaces a dead generator. Later deaths are first substituted in it, and
+  /// the result is stored, which saves work for the next caller.
   const Combination& updated(Generator g);
   /// @param combination_of returns the replacement of a dead generator.
   template <class Find>
@@ -145,10 +145,10 @@ class DeadGenerators {
 
   const K& field_;
   std::uint32_t count_ = 0;
-  std::pmr::vector<Combination> combinations_;  // of each generator; empty for living generators
+  std::pmr::vector<Combination> combinations_;  // by generator; empty for living generators
   std::pmr::vector<Bits> bits_;
   std::pmr::vector<Word> dead_;  // one bit per generator
-  // A combination may be updated during the update of a vector.
+  // There are two accumulators, because a combination may be updated while a vector is.
   Accumulator for_vectors_, for_combinations_;
 };
 

@@ -191,7 +191,7 @@ class RowPool {
     return id;
   }
   void give(Id id) { free_.push_back(id); }
-  /// True if taking the next row may move the table of rows in memory.
+  /// The units of a row. They stay in place when other rows are taken.
   Unit* operator[](Id id) {
     return chunks_[id / kRowsPerChunk].data() + id % kRowsPerChunk * units_;
   }

@@ -12,8 +12,8 @@
 
 namespace ph {
 
-/// H0 and H1 of the Vietoris-Rips filtration of points with few coordinates, from the points alone,
-/// without a list of edges; see pair_points.hpp.
+/// Computes H0 and H1 of the Vietoris-Rips filtration of points with few coordinates. It uses only
+/// the points, without a list of edges; see pair_points.hpp.
 struct BetaSkeletonEngine {
   static constexpr Engine id = Engine::beta_skeleton;
   static constexpr std::array rips_forms{RipsForm::points};

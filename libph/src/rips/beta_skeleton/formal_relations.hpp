@@ -13,9 +13,9 @@
 namespace ph::beta_skeleton {
 
 /// Receives relations between formal generators over any field, one after another, and finds the
-/// generator that each relation kills: the youngest generator that is left after earlier relations
-/// have been subtracted as long as one has the same youngest generator. See
-/// docs/explanation/engines/formal-annotations.md.
+/// generator that each relation kills. As long as an earlier relation has the same youngest
+/// generator as the new one, a multiple of the earlier relation is subtracted. The youngest
+/// generator that is left dies. See docs/explanation/engines/formal-annotations.md.
 template <Field K>
 class FormalRelations {
  public:

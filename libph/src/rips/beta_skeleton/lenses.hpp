@@ -106,7 +106,9 @@ class Lenses {
     return any;
   }
 
-  /// @param near a point of the lens near the middle; if it is kNone, one is searched for.
+  /// Finds the components of the graph on the lens of e.
+  /// @param near a point of the lens near the middle; if it is kNone, the function searches for
+  /// one.
   /// @param holder a node that contains the entire lens.
   void find_components(const Edge& e, Position near, Node holder, LensComponents& found) {
     found.others.clear();

@@ -59,8 +59,9 @@ class Pairing {
   using Term = typename Relations::Term;
   using Sum = typename Relations::Sum;
 
-  /// The distance from a point near the middle to the farthest point. For every longer edge, that
-  /// point is in the lens and joined to all its other points. Such edges therefore change nothing.
+  /// The distance from a point w near the middle of the cloud to the point farthest from w. For
+  /// every longer edge, w is in the lens and is joined to all other points of the lens. Such edges
+  /// therefore change nothing.
   double cone_radius() const {
     const Position middle =
         tree_.nearest(1, tree_.centre(1), std::numeric_limits<double>::infinity());

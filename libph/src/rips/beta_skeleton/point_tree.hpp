@@ -163,9 +163,9 @@ class PointTree {
     }
   }
 
-  /// Of the points below `start` that satisfy `is_allowed` and whose squared distance from x is
-  /// below `limit`, the one nearest to x, or the first one found whose squared distance is below
-  /// `near_enough`. kNone if there is none.
+  /// Searches the points below `start` that satisfy `is_allowed` and whose squared distance from x
+  /// is below `limit`. @return the nearest of these points, or the first one found whose squared
+  /// distance is below `near_enough`; kNone if there is no such point.
   template <class IsAllowed>
   Position nearest(Node start, const Point& x, double limit, double near_enough,
                    IsAllowed&& is_allowed) const {

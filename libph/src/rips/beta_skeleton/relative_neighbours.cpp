@@ -53,7 +53,7 @@ class Finder {
     return w != kNone && S::largest(tree_.point(w), tree_.box(a)) < most &&
            S::largest(tree_.point(w), tree_.box(b)) < most;
   }
-  /// The same for the pairs of the point x with the points of a node.
+  /// The same for all pairs of the point x and a point of node b.
   bool is_hopeless(Position x, Node b, Node holder, Witnesses& witnesses) const {
     const double least = S::least(tree_.point(x), tree_.box(b)) * (1 - kBeyondTies);
     if (least == 0) return false;
@@ -116,8 +116,8 @@ std::pmr::vector<FoundEdge> relative_neighbours(const PointTree<D>& tree, double
   const std::size_t pieces = tree.size() < few ? 1 : 1024;
   std::pmr::memory_resource* const memory = &context.memory;
   std::pmr::vector<FoundEdge> edges(memory);
-  // Starts with the pair of the root and itself, and splits pairs until there are enough for all
-  // threads. Then each thread takes a pair with everything below it.
+  // Starts with the root paired with itself, and splits pairs until there are enough for all
+  // threads. Each thread then takes a pair and handles everything below it.
   std::pmr::vector<NodePair> pairs({{1, 1}}, memory), next(memory);
   Finder<D> finder(tree, limit, context);
   while (!pairs.empty() && pairs.size() < pieces) {

@@ -43,10 +43,10 @@ class SkeletonCycles {
     begin_.back() = static_cast<std::uint32_t>(ends_.size());
   }
 
-  /// Calls `visit(generator, is_positive)` for the terms of a formal annotation of x -> y: zero or
-  /// one generator if the lens of the edge is empty, otherwise the sum of the annotations of the
-  /// two edges by way of a point of the lens. Any point of the lens will do, because both edges
-  /// come before x -> y.
+  /// Calls `visit(generator, is_positive)` for the terms of a formal annotation of x -> y. If the
+  /// lens of the edge is empty, there is at most one term. Otherwise, the annotation is the sum of
+  /// the annotations of x -> w and w -> y, where w is any point of the lens: both edges come before
+  /// x -> y.
   template <class Visit>
   void annotate(Position x, Position y, Visit&& visit) {
     stack_.assign(1, {x, y});

@@ -52,7 +52,8 @@ class SplitLenses<D>::Opener {
   }
 
   /// True if no pair of points of two nodes has to be examined.
-  /// @param witness receives a point near the middle.
+  /// @param witness receives a point near the midpoint of the two nodes' centres, or kNone; it is
+  /// unchanged if the function does not search for such a point.
   bool is_hopeless(Node a, Node b, Position& witness) const {
     const double least = S::least_of_boxes(tree_.box(a), tree_.box(b)),
                  largest = S::largest_of_boxes(tree_.box(a), tree_.box(b));

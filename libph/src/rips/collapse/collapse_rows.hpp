@@ -112,7 +112,8 @@ class RowGraph {
     insert_later(e.u, {e.v, to});
     insert_later(e.v, {e.u, to});
   }
-  /// From now on the edge counts as later, because the collapse goes on just before it.
+  /// Must be called once all edges of the same value are done: the collapse goes on with earlier
+  /// edges, for which this edge is a later one.
   void leave(const FlagEdge& e, Key now) { move(e, now); }
 
  private:

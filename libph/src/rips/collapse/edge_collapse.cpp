@@ -75,7 +75,8 @@ class EdgeCollapse {
     friend auto operator<=>(const Move&, const Move&) = default;
   };
 
-  /// The first key from `now` on at which the edge is not dominated, or kNever.
+  /// The first key that is not less than `now` and at which the edge is not dominated; kNever if
+  /// there is none.
   Key first_key_not_dominated(const FlagEdge& e, Key now, Ticker& ticker) {
     graph_.find_link(e, now, link_);
     Vertex dominator = find_dominator(e, now, ticker);
@@ -101,7 +102,8 @@ class EdgeCollapse {
     return kNever;
   }
 
-  /// A vertex of the link that is joined to all other vertices of the link by `now`, or kNone.
+  /// A vertex of the link that, at key `now`, is joined to all other vertices of the link; kNone if
+  /// there is none.
   Vertex find_dominator(const FlagEdge& e, Key now, Ticker& ticker) {
     Vertex& last = last_dominator_[e.u];
     Vertex c = graph_.contains(link_, last) ? last : graph_.first(link_);
