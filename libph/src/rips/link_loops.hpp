@@ -22,9 +22,9 @@
 
 namespace ph {
 
-/// H1 of a Vietoris-Rips filtration, edge by edge: the annotations of edges, and the births, deaths
-/// and representatives of classes. As long as thousands of classes are alive, a RelationSolver does
-/// the work instead.
+/// Computes H1 of a Vietoris-Rips filtration edge by edge: the annotations of edges, and the
+/// births, deaths and representatives of classes. While thousands of classes are alive, a
+/// RelationSolver does this work instead.
 template <Field K>
 class LinkLoops {
  public:
@@ -59,9 +59,9 @@ class LinkLoops {
   void give_birth(Position position, const FlagEdge& e);
   /// Reports the pair of an edge and the first triangle over it.
   void report_zero_length(Position position, const FlagEdge& e);
-  /// Annotates the edge whose link the graph holds, which must not be empty, and kills the classes
-  /// that further components of the link kill. @param idle receives the components that kill
-  /// nothing, unless all links are wanted.
+  /// Annotates the edge whose link the graph holds, and kills the classes that die with further
+  /// components of the link. The link must not be empty. @param idle receives the components that
+  /// kill nothing, unless all links are wanted.
   void annotate(Position position, const FlagEdge& e, std::pmr::vector<std::size_t>& idle);
   /// Reports the classes that never die.
   void finish();
@@ -80,11 +80,12 @@ class LinkLoops {
            RelationSolver::fits(graph_.vertex_count(), context_.memory);
   }
   void annotate_by_solver(Position position, const FlagEdge& e);
-  /// @param of_edge the annotation that the last edge is about to get.
+  /// Kills a class. @param of_edge the annotation that the last edge is about to get.
   void kill(Class relation, Triangle death, Class of_edge);
-  /// Sets representative_. If cocycles are wanted, it becomes the values of generator g on the
-  /// edges before this one. If cycles are wanted, it becomes a cycle: the cycle of the generator or
-  /// the cycle with the given class, whichever `of_cycle` is.
+  /// Sets representative_ if representatives are wanted. If cocycles are wanted, it becomes the
+  /// values of generator g on the edges before the current one. If cycles are wanted, it becomes
+  /// the cycle of a generator or the cycle of a class.
+  /// @param of_cycle this generator, or the values of the class.
   template <class Values>
   void find_representative(typename Annotations<K>::Generator g, Values of_cycle);
 

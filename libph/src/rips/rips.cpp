@@ -95,7 +95,8 @@ struct MadeForm {
     context.on_progress = call.on_progress;
     context.threads = call.threads;
   }
-  /// From now on, only the context that counts the memory limits it, and nothing can stop the form.
+  /// To be called when the form is complete. From then on, its memory is limited only by the
+  /// context that counts it, and nothing can stop the form.
   void settle() {
     context.memory.set_limit(MemoryBudget::kUnlimited);
     context.stop = {};

@@ -38,8 +38,8 @@ std::vector<double> distances_of(const M& metric) {
   return distances;
 }
 
-/// An upper bound for the enclosing radius: the least distance to the farthest point, among some
-/// sampled points.
+/// An upper bound for the enclosing radius. For each of some sampled points, the distance to the
+/// point farthest from it is computed; the least of these distances is the bound.
 template <Metric M>
 double radius_of(const M& metric, const RunContext& context) {
   double least = std::numeric_limits<double>::infinity();

@@ -63,7 +63,7 @@ double unit_of(const DistanceMatrix& distances, double power) {
   double largest = 0;
   for (Index i = 0; i < distances.size(); ++i)
     for (Index j = 0; j < i; ++j) largest = std::max(largest, distances(i, j));
-  const double least = 1e-280, most = 1e280;  // also for sums
+  const double least = 1e-280, most = 1e280;  // leaves room for sums of powers
   const double of_largest = std::pow(largest, power);
   // mutant: permutation-powers
   return largest == 0 || (of_largest >= least && of_largest <= most) ? 1 : largest;

@@ -94,7 +94,7 @@ class KMeans {
         chosen = i;
         if ((rest -= heaps_[i].count * squares_[i]) < 0) break;
       }
-      if (chosen == heaps_.size()) chosen = first_free();  // because the squares underflowed
+      if (chosen == heaps_.size()) chosen = first_free();  // happens if squares underflowed
       const bool is_first = centres_.empty();
       centres_.push_back(heaps_[chosen].place);
       for (std::size_t i = 0; i < heaps_.size(); ++i) {

@@ -25,7 +25,7 @@ struct Range {
 Range widened(const Range& range, double width) {
   if (range.lo > range.hi) return {0, width};
   if (range.lo < range.hi) return range;
-  // At least so large that adding it to the number is not lost to rounding.
+  // Large enough not to be lost to rounding when it is added to the number.
   const double half = std::max(width / 2, std::ldexp(std::abs(range.lo), -40));
   return {range.lo - half, range.hi + half};
 }
@@ -67,7 +67,7 @@ Grid fit_grid(std::span<const std::span<const Bar>> diagrams, std::size_t points
   for (const auto& bars : diagrams)
     for (const Bar& bar : bars) {
       vectors::check_bar(bar, "fit_grid");
-      if (bar.birth == bar.death) continue;  // such a bar counts for no vector
+      if (bar.birth == bar.death) continue;  // a bar of length 0 contributes to no vector
       range.take(bar.birth);
       range.take(bar.death);
     }

@@ -33,8 +33,8 @@ class GridCells {
   }
 
  private:
-  /// The first place where `is_behind` holds, searched near x. From there on, it must hold
-  /// everywhere.
+  /// The first place where `is_behind` holds, searched near x. It must hold at all later places as
+  /// well.
   template <class IsBehind>
   std::size_t first(double x, const IsBehind& is_behind) const {
     const double steps = per_step_ > 0 ? (x - values_.front()) * per_step_ : 0;

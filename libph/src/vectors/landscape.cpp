@@ -67,8 +67,8 @@ void landscape(std::span<const Bar> given, const Grid& grid, std::size_t layers,
   const std::size_t points = grid.points, most = std::min(layers, bars.size());
   const vectors::SortedByTop sorted(bars, cells, context);
   Ticker ticker(context, "landscape", 2 * points);
-  // Of the tents that grow at t, those of the bars born first are highest. Of the tents that fall,
-  // those of the bars that die last are highest.
+  // Among the tents that rise at t, those of the bars born first are highest. Among the tents that
+  // fall at t, those of the bars that die last are highest.
   vectors::Best<std::less<>> births(most);
   for (std::size_t i = points; i-- > 0;) {
     for (const Bar& bar : sorted.at(i + 1)) births.offer(bar.birth);

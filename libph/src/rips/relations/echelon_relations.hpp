@@ -11,11 +11,11 @@
 namespace ph {
 
 /// Receives relations between generators over Z/2, one after another, and finds the generator that
-/// each relation kills: the youngest generator that is left after substitution of the generators
-/// that died before. No two stored relations have the same youngest generator. If two relations
-/// have the same one, the relation with fewer terms is stored and added to the other (Bauer,
-/// Masood, Giunti, Houry, Kerber, Rathod, Keeping it sparse: computing persistent homology
-/// revisited).
+/// each relation kills: the youngest generator that is left when the generators that died before
+/// have been substituted. No two stored relations have the same youngest generator. If a new
+/// relation has the same one as a stored relation, the one with fewer terms is kept and added to
+/// the other (Bauer, Masood, Giunti, Houry, Kerber, Rathod, Keeping it sparse: computing persistent
+/// homology revisited).
 class EchelonRelations {
  public:
   using Generator = std::uint32_t;  ///< numbered by birth: the youngest has the largest number
@@ -50,9 +50,9 @@ class EchelonRelations {
   };
 
   static std::size_t words_to(Generator g) { return g / 64 + 1; }
-  /// Adds relations to a row until its youngest generator is alive. If the row has fewer terms than
-  /// a relation, the two are swapped first.
-  /// @return that generator, or kNone if nothing is left.
+  /// Adds relations to a row until the youngest generator of the row is alive or the row is empty.
+  /// If the row has fewer terms than a relation, the two are swapped first.
+  /// @return that generator, or kNone if the row is empty.
   static Generator eliminate(Word* row, std::size_t words, Relation* of);
   /// Stores the content of row_ as a relation.
   Relation store(Generator youngest);

@@ -45,7 +45,8 @@ Reduced reduce_row(Word* row, const Word* matrix, std::size_t words, const Row* 
 // Eight squares of 64 x 64 bits side by side.
 using Squares = std::array<std::array<Word, 8>, 64>;
 
-// Swaps the blocks above and below the diagonals, from blocks of 32 x 32 down to single bits.
+// Transposes each square by swapping the blocks above and below its diagonal: first blocks of 32 x
+// 32 bits, then smaller and smaller ones, down to single bits.
 PH_FOR_EACH_TARGET
 void transpose(Squares& squares) {
   Word mask = 0x00000000FFFFFFFF;

@@ -11,15 +11,15 @@
 namespace ph {
 
 /// Receives relations between generators over Z/2, one after another, and finds the generator that
-/// each relation kills: the youngest generator that is left after substitution of the generators
-/// that died before.
+/// each relation kills: the youngest generator that is left when the generators that died before
+/// have been substituted.
 ///
-/// There is a row for each generator, from the oldest to the youngest, and a column for each
-/// relation. Rows are reduced from the youngest up: younger rows are added to a row until its first
-/// column is not the first column of any younger row. The relation of that column killed the
-/// generator of the row. These are the same pairs as with a reduction of columns (de Silva,
-/// Morozov, Vejdemo-Johansson, Dualities in persistent (co)homology), but relations that follow
-/// from earlier ones, as most do here, cost nothing.
+/// The matrix has a row for each generator, from the oldest to the youngest, and a column for each
+/// relation. Rows are reduced one after another, the youngest first: younger rows are added to a
+/// row until its first column is not the first column of any younger row. The relation of that
+/// column killed the generator of the row. A reduction of columns gives the same pairs (de Silva,
+/// Morozov, Vejdemo-Johansson, Dualities in persistent (co)homology). Here, however, relations that
+/// follow from earlier ones cost nothing, and most relations do.
 ///
 /// Relations come in blocks. All additions are stored for later blocks, and for `substitute`.
 class RelationMatrix {

@@ -119,8 +119,8 @@ bool RelationSolver::solve_if_due() {
     if (deaths_.size() < enough) return true;
     if (!solve()) return false;
   } else {
-    // Measured: if lists become rows earlier, rows are longer; if later, more relations are checked
-    // in vain.
+    // Measured: if lists are turned into rows earlier, the rows are longer; if they are turned into
+    // rows later, more relations are checked in vain.
     if (5 * lists_->relations().dead_count() <= 4 * births_.size()) return true;
     const auto vectors = static_cast<double>(births_.size() + 2 * sum_count());
     if (vectors * static_cast<double>(living_) / 8 > most_bytes(memory_)) return true;

@@ -74,16 +74,17 @@ class RelationSolver {
   /// Substitutes the dead generators in all annotations. Precondition: no relations are waiting.
   void make_rows();
 
-  // For few vertices, a block of memory in two parts, on huge pages. Nothing in the first part is
-  // given back before the end; the entire second part is given back when lists become rows.
+  // For few vertices, a block of memory on huge pages, in two parts. Memory of the first part is
+  // not given back before the end. All memory of the second part is given back when lists become
+  // rows.
   std::pmr::monotonic_buffer_resource block_, kept_part_, lent_part_;
   std::pmr::memory_resource *kept_, *lent_;
   SweepObserver<Z2>& observer_;
   const SweepTuning tuning_;
   MemoryBudget& memory_;
-  PairLabels sums_;                    // annotation of an edge by its ends
+  PairLabels sums_;                    // for the ends of each edge: its annotation
   std::pmr::vector<Edge> edges_;       // edges with a non-empty annotation
-  std::pmr::vector<Position> births_;  // of each generator
+  std::pmr::vector<Position> births_;  // birth of each generator
   std::size_t living_ = 0;
   std::unique_ptr<FormalSums> lists_;  // annotations as lists,
   std::unique_ptr<SumRows> rows_;      // or as rows

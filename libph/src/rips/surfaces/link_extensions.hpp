@@ -79,8 +79,7 @@ class LinkExtensions {
   Unit* mismatch(const Extension& x) { return rows_[x.mismatch]; }
   /// loop += scale * gamma.
   void add_gamma(LinkPairs<K>& loop, const Extension& x, const FlagEdge& e, Element scale);
-  /// Extends the potential of a class to the next vertex of a forest, as the first edge to each
-  /// part requires.
+  /// Extends the potential of a class to the next vertex of a forest; see extend_potential.
   /// @return true if another edge requires a different value; `mismatch` then holds the
   /// differences.
   bool extend_to(Extension& x, const FlagEdge& e, Vertex y, const LinkForest& forest);
@@ -88,7 +87,8 @@ class LinkExtensions {
  private:
   using Term = typename Cochain::Term;
 
-  /// to += scale * the values on the link of a cocycle's row, in the first `words` words.
+  /// to += scale * row, where `row` is a row of a cocycle. Only the values on the link count, in
+  /// the first `words` words.
   void add_row(Unit* to, const Unit* row, Element scale, std::size_t words) const;
   /// Finds the potential on a link that has an apex.
   void extend_over_cone(Extension& x, const FlagEdge& e, Vertex apex);

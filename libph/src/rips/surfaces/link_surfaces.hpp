@@ -19,15 +19,16 @@
 
 namespace ph {
 
-/// H2 of a Vietoris-Rips filtration edge by edge: the part of the sweep of edge links above H1.
+/// Computes H2 of a Vietoris-Rips filtration edge by edge. This is the part of the sweep of edge
+/// links that is needed for H2.
 ///
 /// An edge e = (u,v) enters with its star, which is glued to the present complex along the
 /// suspension of e's link, a flag complex. A class of H2 is therefore born with each component of
 /// the link except the first, unless the component kills a class of H1. A class of H2 dies with a
-/// loop of the link. Each living class h is represented by a cocycle phi_h. It extends to the new
-/// triangles by a potential, p(w) = phi_h(u,v,w): p(y) - p(x) = gamma(x,y) := phi_h(u,x,y) -
-/// phi_h(v,x,y) for each edge xy of the link. If no potential exists, a class dies. See
-/// docs/explanation/engines/edge-links-h2.md.
+/// loop of the link. Each living class h is represented by a cocycle phi_h. To extend it to the new
+/// triangles, a potential is needed: a function p(w) = phi_h(u,v,w) on the vertices of the link for
+/// which p(y) - p(x) = gamma(x,y) := phi_h(u,x,y) - phi_h(v,x,y) for each edge xy of the link. If
+/// there is no potential, a class dies. See docs/explanation/engines/edge-links-h2.md.
 template <Field K>
 class LinkSurfaces {
  public:
@@ -94,11 +95,12 @@ class LinkSurfaces {
   /// The value that the edge to w requires for the last vertex, minus the value that the extension
   /// has there.
   Element mismatch_of(const Extension& x, Vertex w);
-  /// Adds younger classes to the classes that are mismatched at w. After that, only the youngest of
-  /// these, the dying class, is mismatched. @param words the number of words in use per row.
+  /// Adds younger classes to the classes that are mismatched at w. Afterwards, the youngest of
+  /// these classes, which is the dying one, is the only one with a mismatch at w. @param words the
+  /// number of words in use per row.
   void correct_others(std::size_t dying, const FlagEdge& e, Vertex w, std::size_t words);
-  /// Reports the pairs of length zero that a tetrahedron causes. @param root, part the root and the
-  /// vertices of one of the two parts of the link that it joins.
+  /// Reports a pair of length zero, whose death is a tetrahedron that joins two parts of the link.
+  /// @param root, part the root and the vertices of one of these parts.
   void report_zero_length(const FlagEdge& e, Vertex root, const Word* part,
                           typename Observer::Tetrahedron tetrahedron);
   void store(const Extension& x, const FlagEdge& e, const LinkComponents& components);
@@ -120,8 +122,8 @@ class LinkSurfaces {
   LinkExtensions<K> extensions_;
   std::pmr::vector<BirthAbove> births_above_;
   std::pmr::vector<std::size_t> partners_;  // for each extension: the extension to be added to it
-  std::pmr::vector<Unit> star_;             // on the link
-  std::pmr::vector<Unit> own_star_;         // on all vertices; zero between uses
+  std::pmr::vector<Unit> star_;             // values on the link
+  std::pmr::vector<Unit> own_star_;         // values on all vertices; zero between uses
   std::pmr::vector<typename Observer::TriangleValue> cocycle_;
 };
 
@@ -236,8 +238,8 @@ void LinkSurfaces<K>::kill_mismatched(Position position, const FlagEdge& e, Vert
 template <Field K>
 void LinkSurfaces<K>::correct_others(std::size_t dying, const FlagEdge& e, Vertex w,
                                      std::size_t words) {
-  // To each other class, the smallest class among the younger ones is added, as it was before this
-  // step. Loops come before all classes.
+  // To each other mismatched extension, a multiple of a younger mismatched class is added: of the
+  // smallest such class, as it was before this step. Loops come before all classes.
   auto& all = extensions_.all();
   partners_.assign(dying, dying);
   std::size_t partner = dying;
@@ -277,8 +279,8 @@ void LinkSurfaces<K>::report_zero_length(const FlagEdge& e, Vertex root, const W
 template <Field K>
 void LinkSurfaces<K>::store(const Extension& x, const FlagEdge& e,
                             const LinkComponents& components) {
-  // Subtracting a constant on a component changes the class only by younger classes. The constants
-  // are chosen to leave few values to store.
+  // A constant may be subtracted from the potential on a component, because this changes the class
+  // only by younger classes. The constants are chosen to leave few values to store.
   Unit* p = extensions_.potential(x);
   const std::size_t words = graph_.words();
   for (std::size_t i = 0; i < components.count(); ++i) {

@@ -61,7 +61,8 @@ class TriangleCochain {
   bool is_dense() const { return !at_.empty(); }
   /// The list of a vertex, unless the cochain is dense.
   Terms terms(Vertex a, const Shared& shared) const { return lists_.terms(a, shared); }
-  /// False only if no triangle at a whose other two vertices are in the link has a value.
+  /// False only if the cochain is zero on all triangles at a whose other two vertices lie in the
+  /// link.
   /// @param terms the list of a.
   bool touches(Vertex a, Terms terms, const LinkGraph& graph) const;
   /// For a dense cochain: phi(a,b,.) if a < b, otherwise -phi(a,b,.); null if that is zero.

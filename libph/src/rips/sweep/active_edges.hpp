@@ -9,9 +9,9 @@
 
 namespace ph {
 
-/// Some edges of a graph, listed at both of their ends in no particular order, with one label per
-/// end: the data of the edge as seen from there. A label is found by scanning the list of a vertex,
-/// because a vertex has few such edges.
+/// Some edges of a graph. Each edge is listed at both of its ends, in no particular order, with a
+/// label at each end: the data of the edge as seen from there. To find a label, the list of a
+/// vertex is scanned, because a vertex has few such edges.
 class ActiveEdges {
  public:
   using Vertex = std::uint32_t;

@@ -29,7 +29,7 @@ void LinkComponents::find(const FlagEdge& e) {
     }
     start = guess;
   }
-  const bool is_guess = start != kNone;  // there was no apex
+  const bool is_guess = start != kNone;  // a guess that turned out not to be an apex
   if (!is_guess) start = graph_.first();
   rest_.assign(graph_.link(), graph_.link() + words);
   if (!take_component(start)) {

@@ -30,7 +30,7 @@ class LinkComponents {
   /// Finds the components of the link that the graph holds, which must be the link of e and not
   /// empty.
   void find(const FlagEdge& e);
-  /// Finds only the roots of the components, of any link. This is quick if the link has few
+  /// Finds only the roots of the components, of any link. This is fast if the link has few
   /// vertices.
   void find_roots(const FlagEdge& e);
   /// Looks for an apex if `find` has not found one. @return true if there is one.

@@ -126,13 +126,14 @@ class LinkGraph {
   LinkLayout layout_;
   // For rows:
   BitMatrix joined_;
-  // Landmarks are up to 64 spread vertices: most links contain one of them. For each vertex: its
-  // own bit if it is a landmark, and the bits of the landmarks among its neighbours.
+  // Landmarks are up to 64 vertices that are spread over the graph, because most links then contain
+  // one of them. For each vertex: its own bit if it is a landmark, and the bits of the landmarks
+  // among its neighbours.
   std::pmr::vector<Word> landmark_, landmarks_at_;
   // For lists, with 16-bit numbers if these are enough:
   NeighbourLists<std::uint16_t> short_lists_;
   NeighbourLists<Vertex> lists_;
-  std::pmr::vector<std::uint8_t> marks_;  // mark of each vertex; zero between uses
+  std::pmr::vector<std::uint8_t> marks_;  // 0 for each vertex between uses
   // For the link:
   std::size_t words_;
   std::pmr::vector<Word> link_;

@@ -65,7 +65,7 @@ class LinkPrimitives {
         loop_vertices_(memory),
         asked_((graph.vertex_count() + 63) / 64 * Function::kUnitsPerBlock, 0, memory) {}
 
-  /// The searches so far, those for classes before loops.
+  /// The searches so far: first the searches for classes, then the loops.
   std::span<Search* const> all() const { return {used_.data(), used_.size()}; }
   void clear();
   /// Adds a search for a class or for a loop.
@@ -77,9 +77,9 @@ class LinkPrimitives {
   void search(const LinkCover& cover);
   /// Looks for primitives of the obstructed classes in the order of the filtration, vertices
   /// ascending, without the loops so far. At the first triangle z > y > w where some searches are
-  /// mismatched, it calls `on_obstruction(search, z, y, w)` for the one with the largest generator.
-  /// Then it calls `on_add(search, obstructed, scale)` for each of the others, which is no longer
-  /// mismatched after that addition.
+  /// mismatched, calls `on_obstruction(search, z, y, w)` for the one with the largest generator.
+  /// Then calls `on_add(search, obstructed, scale)` for each of the others, which has no mismatch
+  /// after this addition.
   template <class OnObstruction, class OnAdd>
   void search_in_order(OnObstruction&& on_obstruction, OnAdd&& on_add);
 
@@ -90,9 +90,8 @@ class LinkPrimitives {
   void begin_vertex();
   void end_vertex(Vertex z);
   void add_over(Vertex z, const Word* around);
-  /// Extends psi(z,.) to a vertex y. In the link of z, the earlier neighbours of y are `around` if
-  /// these are connected, otherwise those in the parts that y meets. @return true if a search is
-  /// mismatched.
+  /// Extends psi(z,.) to a vertex y of the link of z. @param around the earlier neighbours of y,
+  /// which must lie in one part; see extend_over_parts. @return true if a search is mismatched.
   bool extend_to(Vertex z, Vertex y, const Word* around);
   bool extend_over_parts(Vertex z, Vertex y);
   /// The last loop that is mismatched at w, or null. @param w the first vertex where any search is

@@ -16,14 +16,15 @@
 
 namespace ph {
 
-/// H3 of a Vietoris-Rips filtration edge by edge: the part of the sweep of edge links above H2.
+/// Computes H3 of a Vietoris-Rips filtration edge by edge. This is the part of the sweep of edge
+/// links that is needed for H3.
 ///
 /// An edge e = (u,v) enters with its star, which is glued to the present complex along the
 /// suspension of the flag complex M of its link. A class of H3 is therefore born with each class of
 /// H^1(M), a *loop*, that kills no class of H2. A class of H3 dies with a class of H_2(M). Each
-/// living class h is represented by a cocycle phi_h. It extends to the new tetrahedra by a
-/// 1-cochain of M, psi(x,y) = phi_h(u,v,x,y), whose coboundary is gamma(x,y,z) := phi_h(u,x,y,z) -
-/// phi_h(v,x,y,z). If there is no such cochain, a class dies. See
+/// living class h is represented by a cocycle phi_h. To extend it to the new tetrahedra, a
+/// 1-cochain psi(x,y) = phi_h(u,v,x,y) of M is needed, whose coboundary is gamma(x,y,z) :=
+/// phi_h(u,x,y,z) - phi_h(v,x,y,z). If there is no such cochain, a class dies. See
 /// docs/explanation/engines/edge-links-h3.md.
 template <Field K>
 class LinkVolumes {
