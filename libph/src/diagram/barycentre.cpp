@@ -76,8 +76,9 @@ std::size_t medoid(Diagrams diagrams, const RunContext& context) {
   return best;
 }
 
-/// The mean of `count` points: the given bars and, if there are fewer than `count`, copies of the
-/// point on the diagonal that is nearest to their mean. Infinite ends stay infinite.
+/// The mean of `count` points. The first points are the given bars. If there are fewer bars than
+/// `count`, the other points are copies of one point: the point on the diagonal that is nearest to
+/// the mean of the bars. Infinite ends stay infinite.
 Bar mean_of(const std::vector<Bar>& partners, std::size_t count) {
   const auto n = static_cast<double>(partners.size());
   double birth = 0, death = 0;

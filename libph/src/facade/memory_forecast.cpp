@@ -106,8 +106,9 @@ double listed_of(const RipsGraph& part, const Options& options, const RunContext
       count_cliques(part, listed_rips_dim(options.engine, *options.max_dim), context).counts);
 }
 
-/// Orders the vertices so that each prefix of the order is a part similar to the entire graph: at
-/// random if most pairs are edges, otherwise breadth first around a vertex.
+/// Orders the vertices in such a way that any number of first vertices spans a part that is similar
+/// to the entire graph. The order is random if most pairs are edges, otherwise breadth first around
+/// a vertex.
 std::vector<std::uint32_t> order_of(const RipsGraph& graph, std::uint64_t seed) {
   std::vector<std::uint32_t> order(static_cast<std::size_t>(graph.size()));
   std::iota(order.begin(), order.end(), 0U);
@@ -241,7 +242,7 @@ MemoryForecast forecast_points(PointsView points, std::optional<double> threshol
 
 MemoryForecast forecast_voxels(double stored, double voxels, double cells,
                                bool with_representatives) {
-  // Measured on noise: bytes for critical cells with their columns, and for bars. Representatives
+  // Bytes measured on noise, for critical cells with their columns and for bars. Representatives
   // take more, because their chains are long.
   const double bytes_per_cell = with_representatives ? 90 : 20;
   constexpr double least_cells_per_voxel = 8;

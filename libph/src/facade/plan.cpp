@@ -55,7 +55,7 @@ void detail::build_rips(const Rips& rips, const RunPlan& plan, const RunContext&
 
 Barcode detail::run_rips(const Rips& rips, const RunPlan& plan, const RunContext& context) {
   Options options = plan.options;
-  options.collapse = Collapse::off;  // edges are collapsed here or not at all
+  options.collapse = Collapse::off;  // edges are collapsed in this function or not at all
   const auto compute_graph = [&](const RipsGraph& graph) {
     return with_rips_filtration(graph, *options.max_dim, [&](const auto& filtration) {
       return compute(filtration, options, context);

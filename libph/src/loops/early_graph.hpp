@@ -12,8 +12,8 @@
 namespace ph::detail {
 
 /// The first edges of a RipsGraph: the edges that exist when loops are born. The neighbours of each
-/// vertex are sorted by the order of their edges. This gives access to the graph at any earlier
-/// value as well.
+/// vertex are sorted by the order of their edges, which also gives access to the graph at any
+/// earlier value.
 class EarlyGraph {
  public:
   using Key = RipsGraph::Key;

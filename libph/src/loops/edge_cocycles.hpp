@@ -19,9 +19,10 @@ struct Lifetime {
 /// born before it and do not die before it.
 class Elders {
  public:
-  /// @param by_value true if births are compared by value instead of by edge, because the order
-  ///        among edges of equal value may have changed (as after a collapse). Bars that are born
-  ///        at the same value are then elders of each other, and each bar is its own elder.
+  /// Makes an object that compares births by edge or by value. @param by_value true for a
+  /// comparison by value, which is needed if the order among edges of equal value may have changed
+  /// (as after a collapse). Bars that are born at the same value are then elders of each other, and
+  /// each bar is its own elder.
   explicit Elders(bool by_value) : by_value_(by_value) {}
   bool is_elder(const Lifetime& elder, const Lifetime& of) const {
     if (elder.death < of.death) return false;  // mutant: loops-elder
@@ -48,8 +49,9 @@ class EdgeCocycles {
   explicit EdgeCocycles(const RunContext& context)
       : lifetimes_(&context.memory), offsets_(&context.memory), terms_(&context.memory) {}
 
-  /// @param cocycles a barcode of the same vertices, with cocycles in H1. @param keep selects the
-  /// bars whose cocycles are taken.
+  /// Takes the values of cocycles from a barcode of the same vertices.
+  /// @param cocycles the barcode, with cocycles in H1. @param keep selects the bars whose cocycles
+  /// are taken.
   template <class Keep>
   void take(const EarlyGraph& graph, const Barcode& cocycles, std::int64_t field, Keep&& keep,
             Ticker& ticker) {

@@ -291,8 +291,8 @@ class Tightener {
     std::vector<std::uint32_t> counted;
     std::vector<std::int64_t> slot(cocycles.lifetimes().size(), -1);
     for (std::uint32_t k = 0; k < slot.size(); ++k) {
-      // A bar that needs no cocycles is not compared, because deaths are known only as far as
-      // cocycles were computed.
+      // A bar that needs no cocycles has no elder. It is not compared, because a bar that dies
+      // after the last value of the computation seems to be infinite here.
       if (!c.needs_cocycles || !elders_.is_elder(cocycles.lifetimes()[k], c.lifetime)) continue;
       slot[k] = static_cast<std::int64_t>(counted.size());
       counted.push_back(k);

@@ -34,8 +34,8 @@ struct ChebyshevGaps {
   static double reach(double d, double slack) { return d * slack; }
 };
 
-/// For Euclidean distances whose squares underflow. Points closer than that have distance 0, as in
-/// PointMetric.
+/// For Euclidean distances whose squares underflow. Searches reach at least 1e-160, because
+/// PointMetric gives distance 0 to points whose squared differences underflow to 0.
 struct TinyGaps : ChebyshevGaps {
   static double reach(double d, double slack) { return std::max(d * slack, 1e-160); }
 };

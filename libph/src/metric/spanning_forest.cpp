@@ -131,7 +131,8 @@ class Boruvka {
     if (best == kNone || precedes(p, best)) best = p;
   }
 
-  /// Searches the tree for points that may have a better edge than their component knows.
+  /// Searches the tree, but only for points that may have a better edge than the best edge that
+  /// their component knows.
   void ask() {
     for (Position c = 0; c < points_.size(); ++c)
       if (component_[c] == c)

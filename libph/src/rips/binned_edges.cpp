@@ -18,7 +18,7 @@ constexpr auto kInOrder = [](const FlagEdge& a, const FlagEdge& b) { return prec
 
 constexpr std::size_t kFew = 32;  // edges up to this number are sorted by insertion
 
-// Edges divided by the value of a digit.
+// Edges that are divided into parts by some bits (a digit) of their values.
 struct Split {
   std::pmr::vector<std::size_t> ends;  // end of the range of edges with each digit
   int shift;                           // position of the digit

@@ -13,13 +13,15 @@
 
 namespace ph {
 
-/// Cycles for the classes of H1 in a sweep of edge links: the cycle of a generator of H^1 consists
-/// of the edge that gave birth to it and of a path of as few older edges as possible.
+/// Finds cycles for the classes of H1 in a sweep of edge links. The cycle of a generator of H^1
+/// consists of the edge that gave birth to the generator and of a path of as few older edges as
+/// possible.
 ///
-/// On this cycle z_g, the generator g is one, younger generators are zero, and older ones have any
-/// value. A class of homology, given by its values under the generators, is therefore a combination
-/// of cycles z_g. Its coefficients are found from the youngest generator down, and it is born with
-/// its youngest generator. See docs/explanation/engines/edge-links.md.
+/// On this cycle z_g, the generator g has the value one, younger generators have the value zero,
+/// and older ones have any value. A class of homology, given by its values under the generators, is
+/// therefore a combination of cycles z_g. The coefficients are found one after another, for the
+/// youngest generator first. The class is born with the youngest generator of the combination. See
+/// docs/explanation/engines/edge-links.md.
 template <Field K>
 class LinkCycles {
  public:
@@ -40,8 +42,9 @@ class LinkCycles {
         values_(memory),
         terms_(memory) {}
 
-  /// Adds the next generator, in the order of their numbers. @param u, v the ends of its edge,
-  /// which must be connected in the graph without that edge. The generator is one from u to v.
+  /// Adds the cycle of the next generator, in the order of the generators' numbers. @param u, v the
+  /// ends of its edge, which must be connected in the graph without that edge. The generator has
+  /// the value one from u to v.
   void add(Vertex u, Vertex v) { paths_.push_back(shortest_path(v, u)); }
   /// The cycle of a dead generator is no longer needed.
   void erase(Generator g) { paths_[g] = Path(paths_.get_allocator()); }
@@ -94,7 +97,7 @@ class LinkCycles {
   const LinkGraph& graph_;
   Annotations<K>& annotations_;
   const K& field_;
-  std::pmr::vector<Path> paths_;  // of each generator, from the end of its edge to the start
+  std::pmr::vector<Path> paths_;  // by generator: path from the end of its edge to the start
   std::pmr::vector<LinkGraph::Word> unvisited_;
   std::pmr::vector<Vertex> before_;  // for each vertex: the vertex visited before it
   std::pmr::vector<Vertex> queue_;

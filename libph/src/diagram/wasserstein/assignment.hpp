@@ -15,10 +15,11 @@ namespace ph::diagram {
 /// A matching between two sets of points, and prices that certify its quality. A point may also
 /// stay alone, at the cost of moving it to the diagonal.
 ///
-/// Prices u of the first set and w of the second are feasible: u_a + w_b <= cost(a, b) for all
-/// pairs, u_a <= cost(a alone), w_b <= cost(b alone). Every matching therefore costs at least the
-/// sum of all prices. A matching costs exactly that sum if u_a + w_b = cost(a, b) for each of its
-/// pairs and if the price of each point without a partner is its cost alone.
+/// The prices u of the first set and w of the second set are feasible: u_a + w_b <= cost(a, b) for
+/// all pairs, u_a <= cost(a alone), and w_b <= cost(b alone). Every matching therefore costs at
+/// least the sum of all prices. A matching costs exactly that sum under two conditions: u_a + w_b =
+/// cost(a, b) for each of its pairs, and the price of each point without a partner is the cost of
+/// that point alone.
 class Assignment {
  public:
   using Position = PointTree::Position;
@@ -37,9 +38,9 @@ class Assignment {
 
   /// Starts without pairs, with prices of -infinity. Both sets must have points and outlive this
   /// object.
-  /// @param most an upper bound for the cost of a point without a partner. If some matching costs
-  /// less than that, the bound does not change the optimal matching, and it keeps rounding errors
-  /// of prices small.
+  /// @param most an upper bound for the cost of a point without a partner. It keeps the rounding
+  /// errors of prices small. It does not change the optimal matching if some matching costs less
+  /// than `most`.
   Assignment(std::span<const Point> a, std::span<const Point> b, const GroundCost& cost,
              const RunContext& context, double most = std::numeric_limits<double>::infinity())
       : cost_(cost),

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A part of a cloud as bytes: the data of the cloud, the numbers of the parts, their points, edges
-// and claims. All numbers that are read are checked, so that none points outside a list.
+// Writes a part of a cloud as bytes and reads it: the data of the cloud, the numbers of the parts,
+// and their points, edges and claims. Checks that no number that is read points outside a list.
 #include <cmath>
 #include <string_view>
 #include <utility>

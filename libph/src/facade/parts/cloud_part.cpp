@@ -93,8 +93,8 @@ CloudPartForecast CloudPart::forecast(PointsView points, int parts,
   const WholeCloud whole = whole_cloud(points, parts, options);
   const auto n = static_cast<double>(whole.points), of_part = n / parts;
   const double of_block = of_part / whole.blocks;
-  // Measured on 10⁶ to 10⁸ points, uniform and in clusters: see bench/parts/cloud_parts.cpp. If a
-  // block is small, or at the border of a cluster, more points are near the block than in it.
+  // Measured on 10⁶ to 10⁸ points, uniform and in clusters: see bench/parts/cloud_parts.cpp. More
+  // points lie near a block than in it if the block is small or at the border of a cluster.
   constexpr double small = 32 << 20;
   CloudPartForecast forecast;
   forecast.memory = {60 * of_block + 16 * of_part, small + 700 * of_block + 24 * of_part};

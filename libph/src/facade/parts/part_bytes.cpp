@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A part of an image as bytes: the data of the image, the numbers of the parts, bars, and forests
-// with their seams. All numbers that are read are checked, so that none points outside a list.
+// Writes a part of an image as bytes and reads it: the data of the image, the numbers of the parts,
+// bars, and forests with their seams. Checks that no number that is read points outside a list.
 #include <algorithm>
 #include <cstddef>
 #include <string_view>

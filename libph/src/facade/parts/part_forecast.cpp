@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Forecasts the time and the memory that parts of an image take, from a sample of its voxels, and
-// cuts the image into parts that take equally long.
+// Forecasts, from a sample of an image's voxels, the time and the memory that parts of the image
+// take, and cuts the image into parts that take equally long.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>

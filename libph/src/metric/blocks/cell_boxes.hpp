@@ -32,7 +32,7 @@ inline double reach_of(double square) {
 /// points from the sample point of the cell.
 class CellBoxes {
  public:
-  /// @param count the number of boxes.
+  /// Makes empty boxes. @param count their number.
   CellBoxes(std::size_t count, Index axes, const RunContext& context)
       : axes_(axes), sides_(count * box_size(), &context.memory), squares_(count, &context.memory) {
     for (std::size_t i = 0; i < sides_.size(); i += 2) {

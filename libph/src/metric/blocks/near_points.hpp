@@ -62,8 +62,8 @@ class NearPoints {
   bool mark(Node node, const CellRegions& regions);
   bool may_be_near(Node node, const CellRegions& regions) const;
   bool is_near(const double* x, Node leaf) const;
-  /// The square of the length of the longest edge that points of the node `own` of the block may
-  /// have to a point outside the block. @param square an upper bound for the squared distances of
+  /// The square of an upper bound for the length of edges between a point of the node `own` of the
+  /// block and a point outside the block. @param square an upper bound for the squared distances of
   /// these points to the sample.
   double reach(Node own, double square, double within, SampleTree::Cell cell, double gap) const;
   std::size_t box_of(Node own_leaf) const {

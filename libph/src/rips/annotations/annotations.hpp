@@ -105,7 +105,8 @@ class Annotations {
     dead_.eliminate_from(scratch_);
     return intern();
   }
-  /// Calls `visit(edge, terms)` for edges of non-zero class.
+  /// Calls `visit(edge, terms)` for each edge whose class is not zero, with the terms of that
+  /// class.
   template <class Visit>
   void for_each_edge(Visit&& visit);
 

@@ -48,8 +48,8 @@ class LivingCocycles {
   template <class Star>
   void add_star(Generator g, Vertex u, Vertex v, const Star& star);
 
-  /// Calls `visit(generator, at_u, at_v)`, in ascending order, for each generator that may have
-  /// simplices at u or v. An argument is null if the generator has none at that vertex.
+  /// Calls `visit(generator, at_u, at_v)` for each generator that may have simplices at u or v, in
+  /// ascending order. If it has none at u, `at_u` is null; if it has none at v, `at_v` is null.
   template <class Visit>
   void for_each_at(Vertex u, Vertex v, Visit&& visit) const;
   /// The terms in the list; none if the cocycle is dense.

@@ -20,7 +20,7 @@ class NodePairQueue {
  public:
   using Pairs = std::pmr::vector<NodePair>;
 
-  /// @param first pairs at a distance up to this may come in any order.
+  /// Makes an empty queue. @param first pairs at a distance up to this may come in any order.
   NodePairQueue(double first, std::pmr::memory_resource* memory) : levels_(memory) {
     levels_.push_back({key_of(first) >> kWidestShift, kWidestShift, Bins(memory)});
   }

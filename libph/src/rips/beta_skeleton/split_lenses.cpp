@@ -9,8 +9,8 @@
 
 namespace ph::beta_skeleton {
 
-/// Examines pairs of nodes and of points. The result depends only on distances, so pairs may be
-/// examined in any order as long as the set of living classes does not change.
+/// Examines pairs of nodes and of points. As long as the set of living classes does not change, the
+/// result depends only on distances, and pairs may be examined in any order.
 template <int D>
 class SplitLenses<D>::Opener {
  public:

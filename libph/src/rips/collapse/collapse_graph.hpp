@@ -15,14 +15,13 @@
 ///
 ///   Set                           a set of vertices, made by make_set()
 ///   enter_until(key)              edges up to that key enter; called before everything else
-///   find_link(e, now, link)       the common neighbours of the ends of e, the current edge, by now
-///   find_arrivals(e, now, out)    the common neighbours that appear later, each with its key
+///   find_link(e, now, link)       finds the vertices joined to both ends of e, the current edge
+///   find_arrivals(e, now, out)    finds the vertices that are joined to both ends later, with keys
 ///   are_joined(a, b, now)         true if two vertices are joined by `now`
 ///   first_apart(link, c, now)     a vertex of the link other than c not joined to c, or kNone
 ///   keep_neighbours(set, w, now)  removes vertices from a set that are not joined to w
 ///   move(e, key)                  e enters at a later key, or never
-///   leave(e, now)                 all edges with e's value are done: from now on, e counts as
-///   later
+///   leave(e, now)                 to be called after all edges of the same value: e becomes later
 namespace ph::collapse {
 
 using Key = RipsGraph::Key;

@@ -41,8 +41,8 @@ class LinkExtensions {
     /// The lists of u and v, unless the cocycle is dense.
     typename Cochain::Terms at_u = {}, at_v = {};
     typename RowPool<K>::Id potential = 0;
-    /// p(x) + gamma(x,y) - p(y), where y is the last vertex added; zero before the next vertex is
-    /// added. Used only for obstructed classes.
+    /// For an obstructed class: p(x) + gamma(x,y) - p(y), where y is the vertex added last. It is
+    /// zero again before the next vertex is added.
     typename RowPool<K>::Id mismatch = 0;
     std::size_t first = 0, last = 0;  ///< range of its terms in terms_
     bool is_obstructed = false;       ///< no potential fits

@@ -87,8 +87,8 @@ class LinkSurfaces {
 
   static constexpr Position kDead = UINT32_MAX;
 
-  /// Goes through a link in the order of its tetrahedra and kills obstructed classes or changes
-  /// them into unobstructed ones.
+  /// Goes through a link in the order of the tetrahedra over the edge. Each obstructed class either
+  /// dies or is changed until it is no longer obstructed.
   /// @param is_extended true if only pairs of length zero are left to find.
   void sweep(Position position, const FlagEdge& e, bool is_extended);
   void kill_mismatched(Position position, const FlagEdge& e, Vertex y);

@@ -36,7 +36,7 @@ class LinkComponents {
   /// Looks for an apex if `find` has not found one. @return true if there is one.
   bool find_apex(const FlagEdge& e);
 
-  /// Number of components; roots ascend.
+  /// The number of components. Their roots are in ascending order.
   std::size_t count() const { return roots_.size(); }
   std::span<const Vertex> roots() const { return roots_; }
   /// A component's smallest vertex; any vertex if it is the only component.
