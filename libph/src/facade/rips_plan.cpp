@@ -207,8 +207,8 @@ struct Settled {
                   "more than components; set max_dim to 0 and choose neither an approximation nor "
                   "an engine");
   }
-  Options options;             // including the highest dimension
-  FormChoice choice;           // without an engine if none can do the task for so many vertices
+  Options options;             // include the highest dimension
+  FormChoice choice;           // no engine if none can do the task for so many vertices
   bool goes_by_edges = false;  // true if the plan does not depend on the edges
 };
 

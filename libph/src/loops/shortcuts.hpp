@@ -105,7 +105,7 @@ class Shortcuts {
   }
 
   const EarlyGraph& graph_;
-  std::pmr::vector<Mark> near_first_, near_middle_;  // for each vertex: its edge to that vertex
+  std::pmr::vector<Mark> near_first_, near_middle_;  // for each vertex: edge to the marked vertex
   std::uint64_t stamp_ = 0, first_stamp_ = 0, middle_stamp_ = 0;
 };
 

@@ -232,9 +232,9 @@ BinnedEdges bin_edges(FlagEdges&& edges, const RunContext& context) {
   for (const FlagEdge& e : edges) ++next[bin_of(e.value)];
   std::inclusive_scan(next.begin(), next.end(), ends.begin());
   for (std::size_t bin = 0; bin < next.size(); ++bin) next[bin] = ends[bin] - next[bin];
-  // The "American flag" sort of McIlroy, Bostic and McIlroy, Engineering radix sort (1993): an edge
-  // goes to the next place of its bin and displaces the edge there, which moves on, until an edge
-  // arrives that belongs here.
+  // The "American flag" sort of McIlroy, Bostic and McIlroy, Engineering radix sort (1993). An edge
+  // goes to the next place of its bin and displaces the edge there. The displaced edge moves on in
+  // the same way, until an edge arrives that belongs here.
   for (std::size_t bin = 0; bin < next.size(); ++bin)
     for (; next[bin] < ends[bin]; ++next[bin]) {
       FlagEdge& here = edges[next[bin]];

@@ -77,10 +77,10 @@ class CliqueCounter {
   }
 
  private:
-  // The method of Knuth (1975): a random edge is extended vertex by vertex, each chosen at random
-  // among the vertices that are joined to all vertices so far. The product of the numbers of
-  // choices is the expected number of ways to build a clique; each clique can be built from
-  // C(d+1,2) first edges and in (d-1)! orders of the rest.
+  // The method of Knuth (1975): a random edge is extended vertex by vertex. Each vertex is chosen
+  // at random among the vertices that are joined to all vertices of the clique so far. The product
+  // of the numbers of choices estimates the number of ways to build a clique. Each clique can be
+  // built from C(d+1,2) first edges, and the rest of its vertices can be added in (d-1)! orders.
   std::vector<double> estimate() {
     std::vector<double> sums(top_ + 1, 0);
     const std::size_t edges = graph_.edge_count();

@@ -122,7 +122,7 @@ void LinkLoops<K>::report_zero_length(Position position, const FlagEdge& e) {
   const Vertex apex = graph_.global(graph_.first());
   representative_.clear();
   if (wanted_.cocycles || wanted_.cycles) representative_.push_back({position, field_.from_int(1)});
-  if (wanted_.cycles)  // from u to v to the apex to u, with u > v
+  if (wanted_.cycles)  // the path leads from u to v, to the apex and back to u; u > v
     for (const auto& [from, to] : {std::pair{e.v, apex}, std::pair{apex, e.u}})
       representative_.push_back(
           {observer_.position_of(from, to), field_.from_int(from > to ? 1 : -1)});

@@ -130,7 +130,7 @@ class KMeans {
                      }
                    });
     is_new_ = false;
-    sums_.assign(count, {});  // in the order of pieces, for the same rounding on any threads
+    sums_.assign(count, {});  // sums in the order of pieces do not depend on the threads
     for (std::size_t i = 0; i < sums.size(); ++i) sums_[i % count].add(sums[i]);
     return std::ranges::find(changed, 1) != changed.end();
   }

@@ -47,7 +47,7 @@ class CloudBlocks {
   PointsView points_;
   SampleTree tree_;
   SampleTree::Cell first_cell_;
-  CellBoxes boxes_;  // two per cell, from first_cell_ on, in the form of NearPoints
+  CellBoxes boxes_;  // two per cell, for the cells since first_cell_: see NearPoints
   std::vector<Index> sizes_;
   std::uint32_t first_block_;
   double largest_ = 0;

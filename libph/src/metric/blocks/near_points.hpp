@@ -26,10 +26,10 @@ class CellRegions {
 };
 
 /// Finds the points of other blocks that may have an edge to a block in the minimum spanning tree
-/// of the entire cloud. An edge (u, x) is not in that tree if shorter hops lead from u to a sample
-/// point in its own block, from there through the sample to a sample point in the block of x, and
-/// finally to x. A point x is left out if this holds for all u; see
-/// docs/explanation/engines/cloud-parts.md.
+/// of the entire cloud. An edge (u, x) is not in that tree if shorter hops lead from u to x in
+/// three stages: from u to a sample point in its own block, from there through the sample to a
+/// sample point in the block of x, and finally to x. A point x is left out if this holds for all
+/// points u of the block; see docs/explanation/engines/cloud-parts.md.
 class NearPoints {
  public:
   using Node = SampleTree::Node;

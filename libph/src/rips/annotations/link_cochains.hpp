@@ -71,7 +71,7 @@ class LinkPairs {
 
   RowPool<K>* rows_;
   const K* field_;
-  std::pmr::vector<Id> ids_;  // of the row of each vertex
+  std::pmr::vector<Id> ids_;  // number of each vertex's row, or kNone
   std::pmr::vector<Vertex> used_;
 };
 

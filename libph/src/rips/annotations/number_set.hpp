@@ -54,7 +54,7 @@ class NumberSet {
     if (bits_.empty()) return std::ranges::find(list_, id) != list_.end();
     return id / 64 < bits_.size() && (bits_[id / 64] >> (id % 64) & 1) != 0;
   }
-  /// Calls `visit(id)` for each number; the set must not change meanwhile.
+  /// Calls `visit(id)` for each number. The set must not change during the call.
   template <class Visit>
   void for_each(Visit&& visit) const {
     for (const Id id : list_) visit(id);

@@ -80,7 +80,8 @@ struct VertexFunction {
     for (std::size_t v = 0; v < 64 * blocks; ++v)
       if (row[v] != 0) visit(v, row[v]);
   }
-  /// The first vertex from `from` on whose value is not zero, or bits::kNone.
+  /// The first vertex that is not before `from` and whose value is not zero; bits::kNone if there
+  /// is none.
   static std::size_t first(const Unit* row, std::size_t from, std::size_t blocks) {
     for (std::size_t v = from; v < 64 * blocks; ++v)
       if (row[v] != 0) return v;

@@ -164,7 +164,7 @@ class Pairing {
   PointPairObserver& observer_;
   const RunContext& context_;
   const double cone_;
-  std::pmr::vector<double> births_;                       // of each generator
+  std::pmr::vector<double> births_;                       // birth of each generator
   std::pmr::vector<PointPairObserver::Edge> generators_;  // the edges that give birth to them
   std::vector<bool> is_dead_;
   Classes classes_;

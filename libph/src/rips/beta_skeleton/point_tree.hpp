@@ -228,7 +228,7 @@ class PointTree {
 
   KdTree tree_;
   const double* coordinates_;
-  std::pmr::vector<double> cells_;  // of each node, in the form of boxes
+  std::pmr::vector<double> cells_;  // cell of each node, stored like a box
   double midpoint_error_ = 0;
 };
 

@@ -122,7 +122,7 @@ class EdgeCollapse {
 
   RipsGraph collapsed(std::pmr::vector<Move>&& kept) const {
     // mutant: collapse-equal-edges
-    std::ranges::sort(kept);  // of edges with equal values, edges that were moved come first
+    std::ranges::sort(kept);  // among edges of equal value, edges that were moved come first
     FlagEdges edges(&context_.memory);
     edges.reserve(kept.size());
     for (const auto& [to, key] : kept) {
@@ -141,8 +141,8 @@ class EdgeCollapse {
   std::pmr::vector<Vertex> last_dominator_;
 };
 
-constexpr double kAlwaysAffordable = 1 << 25;  // in bytes
-constexpr std::size_t kSample = 500;           // in edges
+constexpr double kAlwaysAffordable = 1 << 25;  // bytes
+constexpr std::size_t kSample = 500;           // number of edges
 // Another pass follows if a pass dropped at least one of every 8 edges. Measured: if it dropped
 // fewer, the next pass takes longer than it saves in the reduction.
 constexpr std::size_t kWorthAnotherPass = 8;

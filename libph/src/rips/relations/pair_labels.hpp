@@ -44,7 +44,7 @@ class PairLabels {
  private:
   std::size_t vertices_;
   std::pmr::vector<std::uint16_t> short_;
-  std::pmr::vector<Label> long_;  // for all pairs, once a number needs more than 16 bits
+  std::pmr::vector<Label> long_;  // used for all pairs once a number needs more than 16 bits
 };
 
 }  // namespace ph

@@ -16,7 +16,7 @@ double bytes(std::size_t vertices) {
 }
 
 double most_bytes(const MemoryBudget& memory) {
-  constexpr double most = 1 << 29, share = 0.25;  // of the remaining memory
+  constexpr double most = 1 << 29, share = 0.25;  // bytes; share of the remaining memory
   return std::min(most, share * static_cast<double>(memory.left()));
 }
 

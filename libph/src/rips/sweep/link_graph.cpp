@@ -74,8 +74,8 @@ LinkGraph::LinkGraph(const ActiveEdges& active, const BinnedEdges& edges, LinkLa
 }
 
 LinkLayout LinkGraph::choose_layout(std::size_t vertices, std::size_t edges) {
-  // Measured: rows are faster from a degree of n / 128 on. They then take at most four times the
-  // memory of the edges.
+  // Measured: rows are faster if the average degree is at least n / 128. They then take at most
+  // four times the memory of the edges.
   const auto n = static_cast<double>(vertices), m = static_cast<double>(edges);
   return 2 * m * 128 >= n * n ? LinkLayout::rows : LinkLayout::lists;
 }

@@ -23,19 +23,19 @@ enum class LinkLayout {
   lists,      ///< the neighbours of each vertex: two or four bytes per end of an edge
 };
 
-/// The edges so far of a flag filtration, and the link of a new edge: the common neighbours of its
-/// ends, with the graph on them as rows of bits. In that graph, vertices have local numbers, in the
-/// same order as their global ones. With lists, the vertices of the link are numbered 0, 1, …, and
-/// a row usually takes one or two words. With rows, local and global numbers are the same, and
-/// nothing is copied.
+/// Stores the edges so far of a flag filtration, and the link of a new edge: the common neighbours
+/// of its two ends. The graph on the link is stored as rows of bits. In that graph, vertices have
+/// local numbers, in the same order as their global numbers. With the layout `lists`, the vertices
+/// of the link are numbered 0, 1, …, and a row usually takes one or two words. With the layout
+/// `rows`, local and global numbers are the same, and nothing is copied.
 class LinkGraph {
  public:
   using Vertex = std::uint32_t;
   using Word = bits::Word;
   static constexpr Vertex kNone = UINT32_MAX;
 
-  /// @param active the active edges among the edges so far; must outlive this object and, with
-  /// lists, must have no rows. @param edges all edges that may be added. @param layout rows or
+  /// @param active the active edges among the edges so far. It must outlive this object; with
+  /// lists, it must have no rows. @param edges all edges that may be added. @param layout rows or
   /// lists.
   LinkGraph(const ActiveEdges& active, const BinnedEdges& edges, LinkLayout layout,
             std::pmr::memory_resource* memory);

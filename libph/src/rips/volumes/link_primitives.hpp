@@ -17,14 +17,16 @@
 
 namespace ph {
 
-/// Looks for primitives of 2-cocycles gamma on the flag complex M of a link, which are 1-cochains
-/// psi with coboundary gamma. Also looks for *loops*: 1-cocycles that form a basis of H^1(M).
+/// Looks for primitives of 2-cocycles gamma on the flag complex M of a link. A primitive is a
+/// 1-cochain psi with coboundary gamma. Also looks for *loops*: 1-cocycles that form a basis of
+/// H^1(M).
 ///
-/// M grows vertex by vertex. A new vertex z is joined to its link in the part of M so far, on which
-/// psi(z,.) must be a potential: psi(z,y) - psi(z,x) = psi(x,y) - gamma(z,x,y). With each component
-/// of that link except one, a loop begins. If several searches have no potential there, multiples
-/// of one loop without a potential are added to the others, and that loop is dropped. If there is
-/// no such loop, gamma has no primitive. See docs/explanation/engines/edge-links-h3.md.
+/// M grows vertex by vertex. A new vertex z is joined to its link in the part of M so far. On that
+/// link, psi(z,.) must be a potential: psi(z,y) - psi(z,x) = psi(x,y) - gamma(z,x,y). With each
+/// component of the link of z except one, a loop begins. If some searches have no potential there
+/// and one of them is for a loop, multiples of that loop are added to the others, and the loop is
+/// dropped. If none of them is for a loop, the gamma of each of them has no primitive. See
+/// docs/explanation/engines/edge-links-h3.md.
 template <Field K>
 class LinkPrimitives {
  public:
