@@ -41,7 +41,8 @@ void require_room(BarcodeFormat format, const Job& job) {
                           barcode_format_name(format)));
 }
 
-/// The places of one input of a batch, in the folders and patterns of the job.
+/// The input and the output files of one of several inputs; the folders and patterns of the job
+/// determine the files.
 Places places_of(const std::string& input, const std::string& name, const Job& job,
                  BarcodeFormat format) {
   Places places = job.places;
@@ -56,7 +57,7 @@ Places places_of(const std::string& input, const std::string& name, const Job& j
   return places;
 }
 
-/// The places of each input.
+/// For each input of the job: the input and its output files.
 std::vector<Places> places_of(const Job& job, const std::vector<std::string>& inputs,
                               BarcodeFormat format) {
   if (!job.is_batch()) {
@@ -140,7 +141,7 @@ void explain_unwritten(const Job& job, BarcodeFormat format, app::Session& sessi
     const Options& options = job.question.options;
     if (options.min_persistence > 0) unwritten.emplace_back("--min-persistence");
     if (job.results.loops) unwritten.emplace_back("--loops");
-    // The memory of bars depends on these, for example on the cells that JSON needs.
+    // These options affect the memory that bars take; for example, JSON needs the cells of bars.
     if (job.results.output_format)
       estimated.push_back(fmt::format("--output-format {}", barcode_format_name(format)));
     if (options.min_dim > 0) estimated.emplace_back("--min-dim");
@@ -157,7 +158,8 @@ void explain_unwritten(const Job& job, BarcodeFormat format, app::Session& sessi
                              fmt::join(estimated, ", ")));
 }
 
-/// Options for bars that have no effect if only the merge tree is written.
+/// Notes options for bars that were given and have no effect, because only the merge tree is
+/// written.
 void explain_unseen_bars(const Job& job, BarcodeFormat format, app::Session& session) {
   const bool is_seen = format != BarcodeFormat::none || !job.places.report.empty() ||
                        job.results.check ||
@@ -203,7 +205,8 @@ BarcodeFormat output_format(const Job& job, app::Session& session) {
                 fmt::format("--output: found '{0}', expected a barcode; --plot {0} draws it, "
                             "--output-format NAME writes another format there",
                             printable(job.places.output)));
-  // Pictures of several inputs do not need barcodes beside them.
+  // If several inputs only get pictures, reports or surfaces, their barcodes are not printed as
+  // well.
   const bool has_others =
       !job.places.plots.empty() || !job.places.report.empty() || !job.places.surfaces.empty();
   if (job.is_batch() && job.places.output == "-" && has_others) return BarcodeFormat::none;

@@ -14,8 +14,9 @@ namespace ph::barcode {
 /// picture.
 BarcodeFormat output_format(const Job& job, app::Session& session);
 
-/// Runs all inputs. With an output folder, one failure does not stop the others: its line goes to
-/// stderr, and the code of the first failure is returned at the end.
+/// Runs the job for all inputs. With an output folder, an input that fails does not stop the
+/// others: its error is printed to stderr, and the exit code of the first failure is returned at
+/// the end.
 int run_all(const Job& job, app::Session& session);
 
 /// Computes the part that the arguments name. Precondition: `sharing.part` is set. @return the exit
@@ -26,13 +27,14 @@ int run_part(const Job& job, app::Session& session);
 /// Joins the inputs, which are parts. @return the exit code. @throws Error.
 int run_join(const Job& job, BarcodeFormat format, app::Session& session);
 
-/// Computes the barcodes of the inputs that belong to one part, and writes the part. One failure
-/// does not stop the others: the part records it. Precondition: job.sharing.part.
+/// Computes the barcodes of the inputs that belong to one part, and writes the part. An input that
+/// fails does not stop the others: the part records its failure. Precondition: job.sharing.part.
 Outcome run_batch_part(const std::vector<std::string>& inputs, const Job& job,
                        app::Session& session);
 
 /// Joins parts of a batch and writes one table, `input,dim,birth,death`, or one part.
-/// @return the code of the first input that failed, if any did: the table is written anyway.
+/// @return an outcome with the exit code of the first input that failed, if any did; the table is
+/// written in any case.
 /// @throws Error (bad_data) naming the files, if parts do not belong together or some are missing.
 Outcome join_batch_parts(const std::vector<PartFile>& files, const Places& places,
                          app::Session& session);

@@ -36,7 +36,7 @@
 namespace ph::barcode {
 namespace {
 
-/// The number of layers requested for processing one by one, or why this does not apply.
+/// Reports how --slab-layers is applied, or why it has no effect.
 void explain_slabs(const BuiltComplex& built, const RunPlan& plan, const Job& job,
                    app::Session& session) {
   const int layers = job.common.slab_layers;
@@ -62,9 +62,9 @@ void explain_slabs(const BuiltComplex& built, const RunPlan& plan, const Job& jo
         fmt::format("slabs of {}", app::count_of(static_cast<std::size_t>(layers), "layer")));
 }
 
-/// Opens the files of the merge tree's plots, in their order. This happens before the bars are
-/// computed, which may take long, because there may be no tree. @throws Error (usage) if there is
-/// none.
+/// Draws the plots of the merge tree, in the order of the plots. They are drawn before the bars are
+/// computed, because a missing tree should be reported before a long computation. @throws Error
+/// (usage) if there is no tree.
 std::vector<std::string> pictures_of_tree(const Loaded& loaded, const Job& job,
                                           const RunContext& context) {
   const auto tree = in_name_of(loaded.name, [&] { return tree_of(loaded.built, context); });
@@ -165,7 +165,7 @@ class Run {
       throw Error(ErrorKind::bad_data,
                   fmt::format("{}: found a barcode, expected data", mark_place(input.name())));
     app::require_in_scope(job_.given, kBarcode,
-                          name_of(kBarcode));  // --dry-run is not one
+                          name_of(kBarcode));  // also refuses --dry-run
     return input;
   }
 
@@ -179,8 +179,8 @@ class Run {
     take_facts(loaded, estimated.built);
     explain_slabs(loaded.built, estimated, job_, session_);
     const app::BarHold results_are_written(session_);
-    // If the estimate listed the edges, they are part of the memory as well, because nothing had
-    // listed them before.
+    // Only the estimate may have listed the edges; in that case they are added to the memory that
+    // was taken before.
     const double held = estimated.built.edges ? estimated.bytes_held : 0;
     write_file("-", estimate_text(estimated, loaded.built, loaded.description, taken + held));
     return {app::kOk, loaded.description};

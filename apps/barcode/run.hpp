@@ -12,7 +12,7 @@ inline constexpr app::Program kProgram{
     "take fewer points or voxels, a lower threshold or dimension (--max-dim), or raise "
     "--memory-limit"};
 
-/// Reads one input, computes its barcode and writes it. A stored barcode is already computed.
+/// Reads one input, computes its barcode and writes it. A stored barcode is only read and written.
 /// @throws Error.
 Outcome run(const Job& job, app::Session& session);
 

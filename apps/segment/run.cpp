@@ -208,7 +208,8 @@ std::vector<std::string> notes_on(const Result& result, const Arguments& argumen
   return texts;
 }
 
-/// A cloud that is to be written as PLY, which cannot store the viewpoint; empty: none is.
+/// A note if the cloud is written as PLY, which cannot store its viewpoint; empty if there is
+/// nothing to note.
 std::string about_viewpoint(const OutputPaths& files, const Cloud* cloud) {
   if (cloud == nullptr) return {};
   const auto& [x, y, z, qw, qx, qy, qz] = cloud->viewpoint;

@@ -16,8 +16,9 @@ inline constexpr app::Program kProgram{"ph-segment", "use fewer points, or raise
 /// @return the exit code. @throws Error.
 int run(Arguments& arguments, app::Session& session);
 
-/// Segments frame after frame. One failure does not stop the others: its line goes to stderr, and
-/// the code of the first failure is returned at the end. The last line on stderr is the throughput.
+/// Segments frame after frame. A frame that fails does not stop the others: its error is printed to
+/// stderr, and the exit code of the first failure is returned at the end. The last line on stderr
+/// is the throughput.
 int run_stream(const Arguments& arguments, app::Session& session);
 
 /// The state that is kept from frame to frame so that results are steady.

@@ -118,7 +118,7 @@ void add_euler_block(Fit& fit, std::span<const StepFunction> curves, const Argum
   std::vector<Bar> changes;  // all curves, as bars that never end: the fit uses their births
   for (const StepFunction& curve : curves) {
     const std::size_t count = curve.at.size();
-    // A curve that begins at -infinity has its range from the next change on.
+    // The range of a curve that begins at -infinity starts at its next change.
     for (const std::size_t k : {std::size_t{0}, std::size_t{1}, count - 1})
       if (k < count) changes.push_back({0, curve.at[k], kInfinity});  // mutant: euler-change
   }

@@ -129,7 +129,7 @@ void add_output_options(app::Options& options, Job& a) {
   options.limit(compare, kOffRanks)
       ->type_name("FILE FILE")
       ->type_size(1)
-      ->expected(1, kAnyNumber);  // take_compared() says what is wrong
+      ->expected(1, kAnyNumber);  // take_compared() reports a wrong number of files
 }
 
 void add_picture_options(app::Options& options, app::PlotArguments& plots) {

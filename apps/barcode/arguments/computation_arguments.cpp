@@ -22,7 +22,8 @@ using app::parse_integer;
 using app::parse_number;
 using Names = std::vector<std::string_view>;
 
-constexpr int kMostDimensions = 1'000'000;  // no simplex that fits into memory has as many
+// A simplex of a higher dimension would not fit into memory.
+constexpr int kMostDimensions = 1'000'000;
 
 void take_metric(Job& a, const std::string& text) {
   constexpr std::string_view kMinkowski = "minkowski:";

@@ -7,8 +7,8 @@
 
 namespace ph::barcode {
 
-/// The kinds of input, each with the complex that is built from it. Each option has an effect for
-/// some of them only.
+/// The kinds of input, each with the complex that is built from it. Each option has an effect only
+/// for some of these kinds.
 enum Situation : app::Situations {
   kPoints = 1 << 0,       ///< points with their Rips complex
   kMatrix = 1 << 1,       ///< a square matrix of all distances
@@ -55,7 +55,7 @@ constexpr app::Scope kOffRanks{~(kRanks | kCloudRanks), "one process"};
 
 namespace ph {
 
-/// The words for a situation in messages.
+/// The words that messages use for a situation.
 template <>
 inline constexpr std::array names_of<barcode::Situation>{
     Named{barcode::kPoints, "points"},

@@ -68,7 +68,8 @@ void check_table_arguments(Job& a) {
     if (a.reading.options.nan == NanPolicy::drop)
       throw Error(ErrorKind::usage,
                   "--delay: excludes --nan drop: no time may be missing in a time series");
-    if (a.reading.format == Format::automatic) meaning = ArrayMeaning::image;  // of one or two axes
+    // Reads an array of one or two axes.
+    if (a.reading.format == Format::automatic) meaning = ArrayMeaning::image;
   }
   if (a.reading.format == Format::distance) meaning = ArrayMeaning::distances;
   if (meaning != ArrayMeaning::automatic) return;

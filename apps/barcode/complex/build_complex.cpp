@@ -24,8 +24,8 @@ namespace {
 /// Builds the complexes that make sense for each kind of data.
 class Builder {
  public:
-  /// @param read the description of the data, which are visited. @param dropped how many points of
-  /// the input are not among them.
+  /// @param read the input as it was read; its data are visited by this object. @param dropped the
+  /// number of points of the input that were left out of the data.
   Builder(const std::string& name, const Job& job, const RunContext& context,
           const ReadResult& read, std::size_t dropped)
       : name_(name),
@@ -94,7 +94,8 @@ class Builder {
   }
 
  private:
-  /// The complex to build: the requested one, or the first that makes sense.
+  /// The complex to build: the requested one or, without a request, the first of `kinds`. @throws
+  /// Error (usage) if the request is not one of `kinds`.
   ComplexKind expect(std::string_view data, std::initializer_list<ComplexKind> kinds) const {
     const bool is_free = job_.question.complex == ComplexKind::automatic;
     const ComplexKind kind = is_free ? *kinds.begin() : job_.question.complex;
@@ -112,7 +113,7 @@ class Builder {
     return kind;
   }
 
-  /// An option that has no effect is a misunderstanding.
+  /// Refuses an option that has no effect here, because ignoring it would hide a misunderstanding.
   void require_in_scope(Situation here) const {
     app::require_in_scope(job_.given, here, name_of(here));
   }
@@ -190,7 +191,7 @@ class Builder {
       return built;
     });
   }
-  /// The points stay in place, see build_complex.
+  /// The complex refers to the points, which must therefore stay in place; see build_complex.
   Rips rips_of(const Points& points, RipsOptions options) const {
     return Rips::borrowed(points, std::move(options), context_);
   }
@@ -199,9 +200,9 @@ class Builder {
     return Rips(distances, std::move(options), context_);
   }
 
-  /// Numbers from a file that has one for each point of the input, including points that were left
-  /// out.
-  /// @param path empty: none.
+  /// The numbers in a file that has one number for each point of the input, including points that
+  /// were left out.
+  /// @param path the file; if it is empty, there are no numbers.
   std::vector<double> values_by_point(const std::string& path, Index points,
                                       double least = std::numeric_limits<double>::lowest(),
                                       const char* expected = "a finite number") const {
@@ -294,7 +295,7 @@ class Builder {
   const std::size_t dropped_;
 };
 
-/// 1 + x as text, with the digits of x that the sum would lose.
+/// 1 + x as text, with the digits of x that would be lost if the sum were computed first.
 std::string one_and(double x) {
   constexpr double least = 1e-6;
   return x < least ? "1 + " + shortest(x) : shortest(1 + x);

@@ -33,18 +33,19 @@ struct BuiltComplex {
 /// One line about the points that are not part of an alpha complex; empty if there are none.
 std::optional<std::string> hidden_points(const BuiltComplex& built);
 
-/// Adds the threshold and subsample of a Rips complex, which are known once it is built.
+/// Adds the threshold and the subsample of a Rips complex, which are known only once the complex is
+/// built.
 void take_facts(BuiltComplex& built, const RunFacts& facts);
 /// One line about the accuracy of an approximation or a subsample; empty if there is none.
 std::optional<std::string> promise_of(const BuiltComplex& built, const RunFacts& facts);
 
-/// The merge tree of all points. Empty if the complex was sampled, approximated or cut, and if
-/// report::whole_tree has none. @throws Error (resource, cancelled).
+/// The merge tree of all points. Empty if the complex was sampled, approximated or cut off, or if
+/// report::whole_tree returns none. @throws Error (resource, cancelled).
 std::optional<MergeTree> tree_of(const BuiltComplex& built, const RunContext& context);
 
-/// Calls `work`. Data may be wrong in ways that no reader can detect, such as a point without a
-/// direction or distances that overflow. @throws Error (bad_data) "name: …"; other errors
-/// unchanged.
+/// Calls `work`, and puts the name of the input before its errors of kind bad_data. Data may be
+/// wrong in ways that no reader can detect, such as a point without a direction or distances that
+/// overflow. @throws Error (bad_data) "name: …"; other errors unchanged.
 template <class Work>
 decltype(auto) in_name_of(const std::string& name, Work&& work) {
   try {
@@ -62,7 +63,7 @@ decltype(auto) in_name_of(const std::string& name, Work&& work) {
 /// @throws Error (usage) if an option does not fit the data; Error (bad_data) "name: …".
 BuiltComplex build_complex(ReadResult&& input, const std::string& name, std::size_t dropped,
                            const Job& job, const RunContext& context);
-/// Builds the complex from data that are needed again.
+/// The same for data that are needed again: the complex gets a copy where it has to own them.
 BuiltComplex build_complex(const ReadResult& input, const std::string& name, std::size_t dropped,
                            const Job& job, const RunContext& context);
 

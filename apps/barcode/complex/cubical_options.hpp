@@ -7,13 +7,13 @@
 
 namespace ph::barcode {
 
-/// The options for one image, from the arguments. @param periodic the axes that its file declares
-/// periodic.
-/// @throws Error (usage) if the image has fewer axes.
+/// The options for one image, from the arguments. @param periodic the axes that the file of the
+/// image declares periodic.
+/// @throws Error (usage) if an option needs more axes than the image has.
 CubicalOptions cubical_options(const Job& job, const Image& image,
                                const std::vector<bool>& periodic);
 
-/// These options, as the origin of a barcode states them.
+/// Writes these options into the origin of a barcode.
 void describe(const CubicalOptions& options, BarcodeInfo& info);
 
 }  // namespace ph::barcode

@@ -15,7 +15,7 @@
 namespace ph::barcode {
 namespace {
 
-/// Bytes of the data that remain while the complex is built.
+/// The number of bytes of the data that remain in memory while the complex is built.
 std::size_t size_of(const ReadResult& read) {
   struct Size {
     std::size_t operator()(const Points& points) const {
@@ -29,7 +29,8 @@ std::size_t size_of(const ReadResult& read) {
       return distances.edges().size() * sizeof(WeightedEdge);
     }
     std::size_t operator()(const Image& image) const { return image.values.bytes(); }
-    std::size_t operator()(const SimplicesInput&) const { return 0; }  // becomes the complex
+    // The simplices become the complex itself.
+    std::size_t operator()(const SimplicesInput&) const { return 0; }
     std::size_t operator()(const BoundaryInput&) const { return 0; }
     std::size_t operator()(const Mesh& mesh) const {
       return (*this)(mesh.vertices) + mesh.corners.size() * sizeof(Index);
@@ -42,7 +43,7 @@ bool is_given(const Job& job, std::string_view option) {
   return std::ranges::count(job.given, option, &app::GivenOption::name) > 0;
 }
 
-/// Why the data cannot contain NaN; empty: they may contain some.
+/// The reason why data of this kind cannot contain NaN; empty if they can.
 std::string_view why_no_nan(const ReadResult& read) {
   if (read.format == Format::perseus) return "a Perseus file has none";
   if (std::holds_alternative<Mesh>(read.data)) return "a mesh has none";
@@ -55,7 +56,7 @@ std::string_view why_no_nan(const ReadResult& read) {
 /// True if every row may be the dimension, birth and death of a bar, although the file does not say
 /// that it holds a barcode.
 bool may_be_bars(const ReadResult& read) {
-  constexpr double most = 9;  // dimensions
+  constexpr double most = 9;  // highest dimension that a bar may plausibly have
   const auto is_bar = [](double dim, double birth, double death) {
     return dim >= 0 && dim <= most && dim == std::floor(dim) && birth < death;
   };
@@ -86,7 +87,7 @@ bool may_be_bars(const ReadResult& read) {
       has_bars =
           read_stored_barcode(Input::open(files::path_of(job.places.input), &context)).bars.size() >
           0;
-    } catch (const std::exception&) {  // it cannot be read again either
+    } catch (const std::exception&) {  // this time the file could not be read as a barcode either
     }
   }
   if (!has_bars) throw;
@@ -107,13 +108,13 @@ Loaded load(const Job& job, std::optional<Input>& input, app::Session& session, 
   }();
   input.reset();
   const auto& [name, read, dropped, sha256] = data;
-  // Scanners mark holes by NaN: such NaN are an error only if an option says so.
+  // Scanners mark holes with NaN, so NaN in an image is an error only if an option says so.
   if (dropped > 0 && is_given(job, "nan") && job.reading.options.nan == NanPolicy::error)
     throw Error(ErrorKind::bad_data,
                 fmt::format("{}: {} with NaN, expected numbers; --nan drop leaves them out",
                             mark_place(name), app::count_of(dropped, "point")));
   const std::string what = fmt::format("read {}: {}", name, read.description);
-  // A batch reports it in its one line per input.
+  // In a batch, the line about each input states this.
   if (job.reading.format == Format::automatic && job.inputs == std::vector{job.places.input})
     session.note(what);
   else

@@ -15,7 +15,7 @@
 namespace ph::barcode {
 namespace {
 
-/// A note on what results do with a mesh that has no values; empty for other data.
+/// For a mesh without values: a note on how its vertices and faces are used. Empty for other data.
 std::string note_on_mesh(const ReadResult& read, const Job& a) {
   const auto* const mesh = std::get_if<Mesh>(&read.data);
   if (a.question.complex == ComplexKind::lower_star || mesh == nullptr || mesh->faces() == 0 ||
@@ -41,7 +41,7 @@ Points series_of(const std::string& name, ReadResult& read) {
   return series;
 }
 
-/// Replaces the data by the windows of a time series.
+/// Replaces a time series by points: each window of the series becomes a point.
 void embed(const std::string& name, const Delay& delay, std::size_t dropped,
            const RunContext& context, ReadResult& read) {
   if (dropped > 0)
@@ -51,7 +51,7 @@ void embed(const std::string& name, const Delay& delay, std::size_t dropped,
                             mark_place(name), dropped));
   const Points series = series_of(name, read);
   const auto [dimension, lag] = delay;
-  // A point has the numbers of `dimension` rows.
+  // Each point consists of the numbers of `dimension` rows.
   context.memory.require(static_cast<std::size_t>(series.size()) * sizeof(double) *
                          static_cast<std::size_t>(std::min(dimension, series.rows())));
   Points points;
@@ -73,7 +73,8 @@ NamedData read_input(const Input& input, const Job& job, const RunContext& conte
   options.context = &context;
   options.dropped = &dropped;
   Format format = job.reading.format;
-  // A row for each time, with any number of columns; arrays may have one axis.
+  // A time series is a table with one row per time and any number of columns, or an array, which
+  // may have one axis.
   if (job.reading.delay && format == Format::automatic && !detail::format_by_content(input))
     format = Format::points;
   ReadResult read = read_any(input, format, options, files::path_of(job.reading.values));

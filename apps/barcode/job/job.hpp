@@ -43,7 +43,7 @@ constexpr bool is_triangulated(ComplexKind kind) {
 /// The loops to compute for each cycle of H1: shortened, as they are found, or none.
 enum class LoopChoice { tight, plain, none };
 
-/// The delay embedding of a time series, whose windows are the points.
+/// The delay embedding of a time series: each window of the series becomes a point.
 struct Delay {
   Index dimension, delay;
 };
@@ -78,7 +78,7 @@ struct Results {
   bool check = false;
   bool significance = false;  ///< a p-value per bar
   bool dry_run = false;
-  std::optional<BarcodeFormat> output_format;  ///< as given
+  std::optional<BarcodeFormat> output_format;  // as --output-format names it; empty: not given
   PlotOptions look;                            ///< look of the plots
 };
 

@@ -13,12 +13,13 @@ namespace ph::barcode {
 struct OwnComplex {
   std::string_view name;  ///< as in --complex NAME
   std::string_view what;  ///< one phrase, for --help
-  /// Builds the whole complex; a threshold is applied to its bars. Vertex i of the complex is point
-  /// i.
+  /// Builds the whole complex; a threshold is applied to the bars afterwards. Vertex i of the
+  /// complex is point i.
   std::function<ExplicitComplex(PointsView points, const RunContext& context)> of_points;
 };
 
-/// To be called before the command line is read. @throws Error (usage) if the name is taken.
+/// Adds a complex to the choices of --complex. Must be called before the command line is read.
+/// @throws Error (usage) if the name is taken.
 void add_complex(OwnComplex complex);
 
 /// The complexes added so far.

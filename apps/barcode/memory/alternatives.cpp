@@ -28,7 +28,7 @@ std::string text_of(const Fit& fit, const Job& job) {
   bool has_loops = job.results.loops.has_value();
   for (const auto& [setting, value] : fit.changes) {
     changes.push_back(app::kWords.setting(setting, value));
-    // Without cycles of H1, --loops is refused.
+    // --loops is refused if no cycles of H1 are computed.
     const bool ends_loops =
         setting == Setting::representatives || (setting == Setting::max_dim && value == "0");
     if (has_loops && ends_loops) {
@@ -39,7 +39,8 @@ std::string text_of(const Fit& fit, const Job& job) {
   return text_of(fmt::format("{}", fmt::join(changes, " ")), fit);
 }
 
-/// The smallest of a few larger voxels with which the image of points fits; empty if none does.
+/// The smallest of a few larger voxel sizes at which the image of the points fits into memory;
+/// empty if none does.
 std::string larger_voxel(const NamedData& data, const Job& job, const RunContext& context) {
   for (const double times : {1.5, 2.0, 4.0, 8.0, 16.0}) {
     Job changed = job;
@@ -62,7 +63,8 @@ std::string larger_voxel(const NamedData& data, const Job& job, const RunContext
 }  // namespace
 
 std::string alternatives(const Job& job, app::Session& session) {
-  if (job.places.input == "-") return "";  // was read and freed again
+  // Standard input has already been read, and cannot be read again.
+  if (job.places.input == "-") return "";
   try {
     const RunContext& context = session.context();
     const Input input =

@@ -37,8 +37,8 @@ std::string estimate_text(const Estimate& estimate, const BuiltComplex& built,
   // Part of the measured memory is code pages, which any input needs.
   constexpr double code = 2 << 20;
   const double low = std::max({0.0, taken - code, estimate.bytes_low});
-  // Memory that was freed after building may not fit the next allocations: at worst, none of it is
-  // used again.
+  // Memory that was freed after building may not suit the next allocations: in the worst case, none
+  // of it is used again.
   const double high =
       std::max(taken, estimate.bytes_held) + estimate.bytes_high - estimate.bytes_held;
   return text + fmt::format("memory   {} to {}\n", format_size(low), format_size(high));

@@ -10,15 +10,16 @@
 
 namespace ph::barcode {
 
-/// What --dry-run prints. @param taken bytes that reading and building took.
+/// The output of --dry-run. @param taken the number of bytes that reading the data and building the
+/// complex took.
 std::string estimate_text(const Estimate& estimate, const BuiltComplex& built,
                           const std::string& description, double taken);
 
-/// For a job that ran out of memory: changes of the command line with which it should fit,
-/// according to an estimate of each; the complex of each change was built within the limit. Reads
-/// the input again.
-/// @return "what would fit: " and at most three changes, or "what may fit: " for an image; empty if
-/// none is known.
+/// For a job that ran out of memory: changes of the command line with which the job should fit.
+/// Reads the input again, builds the complex for each change within the limit, and estimates the
+/// memory of its computation.
+/// @return "what would fit: " or, for an image, "what may fit: ", and at most three changes; empty
+/// if none is known.
 std::string alternatives(const Job& job, app::Session& session);
 
 }  // namespace ph::barcode

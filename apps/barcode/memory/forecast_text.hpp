@@ -18,8 +18,8 @@ std::string forecast_text(const ImagePartForecast& forecast, const std::string& 
 std::string forecast_text(const CloudPartForecast& forecast, const std::string& description,
                           int parts, std::string_view process);
 
-/// True if layers should be distributed by their content: otherwise a rank would need twice the
-/// mean.
+/// True if layers should be distributed by their content, because otherwise one rank would take at
+/// least twice as long as the mean.
 inline bool is_unequal(const ImagePartForecast& forecast) {
   constexpr double most = 2;
   return forecast.longest >= most;

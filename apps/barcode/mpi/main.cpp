@@ -19,7 +19,8 @@ constexpr ph::app::Program kProgram{
     "take more ranks on more machines, ask for less (--max-dim), or raise "
     "--memory-limit"};
 
-/// Such an option works without MPI, which may be missing where the program is only asked for help.
+/// True if an option such as --help is given. It must be answered without MPI, which may be missing
+/// on a machine where users only ask for help.
 bool is_help_asked(int argc, char** argv) {
   for (int i = 1; i < argc; ++i) {
     const std::string_view word = argv[i];

@@ -15,8 +15,8 @@ constexpr int kTag = 1;
 // Counts in MPI are ints: a message is sent in pieces of at most this many bytes.
 constexpr std::size_t kMostAtOnce = std::size_t{1} << 30;
 
-/// Waits for a pending operation, and sleeps longer and longer meanwhile: MPI itself would use a
-/// whole core, which another rank may need.
+/// Waits for a pending operation, and sleeps between polls, longer each time. A wait inside MPI
+/// would use a whole core, which another rank may need.
 void wait_for(MPI_Request& request) {
   using std::chrono::microseconds;
   constexpr int kBusy = 200;  // number of immediate polls
@@ -79,7 +79,8 @@ void MpiTransport::wait_for_all() {
 
 int MpiTransport::finish(int code) {
   if (code != 0) {
-    // Waits until output has left MPICH's own pipes, which an abort cuts off.
+    // Gives MPICH time to forward the output of this rank, because an abort cuts off the output
+    // that is still in MPICH's pipes.
     std::this_thread::sleep_for(std::chrono::milliseconds(200));
     MPI_Abort(MPI_COMM_WORLD, code);
   }

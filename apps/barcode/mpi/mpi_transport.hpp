@@ -17,7 +17,7 @@ class MpiTransport final : public Transport {
   std::vector<std::byte> receive(int from) override;
   /// Number of ranks on this machine, which share its memory and cores.
   int ranks_here() const { return ranks_here_; }
-  /// Waits until all ranks get here.
+  /// Waits until all ranks have called this function.
   void wait_for_all();
   /// Ends this rank, and all others unless the code is 0. @return the code.
   int finish(int code);

@@ -32,7 +32,8 @@ class Outputs {
   std::vector<app::Output> plots_, surfaces_;
 };
 
-/// The look of plots: for superlevel sets, their labels are the values of the image.
+/// The look of the plots of an image: for superlevel sets, axes are labelled with the values of the
+/// image instead of their negatives.
 PlotOptions look_of(PlotOptions look, bool superlevel);
 
 /// Warns about dimensions that plots were asked to show and that have no bars.

@@ -26,7 +26,8 @@ namespace {
 
 using report::ReportFile;
 
-// Number of bars of a dimension in both barcodes up to which their distance takes seconds.
+// Largest number of bars of one dimension, in both barcodes together, for which computing their
+// distance takes only seconds.
 constexpr std::size_t kMostComparedBars = 40'000;
 
 /// The points that the page shows; empty if there are none, or if cells belong to a grid.
@@ -70,7 +71,8 @@ report::Provenance provenance_of(const Shown& shown, const Job& job) {
   return provenance;
 }
 
-/// The barcode is complete: show it even without its tree.
+/// The merge tree; empty if memory does not suffice for it, because the barcode, which is complete,
+/// can be shown without the tree.
 std::optional<report::ShownTree> tree_if_it_fits(const Shown& shown, app::Session& session) {
   const RunContext& context = session.context();
   try {
@@ -102,7 +104,8 @@ std::vector<std::string> add_distances(report::Metadata& meta, std::span<const B
     }
     const auto [distance, pairs] = app::matching_of(bars[0], bars[1], {}, session.context());
     meta.distances.push_back({dim, distance.value});
-    // Numbers of bars: bars of one dimension are consecutive in each barcode.
+    // The bars of one dimension are consecutive in each barcode, so the number of the first one is
+    // enough.
     const auto first = bars[0].empty() ? 0U : static_cast<std::uint32_t>(&bars[0][0] - &a[0]);
     const auto second = bars[1].empty() ? 0U : static_cast<std::uint32_t>(&bars[1][0] - &b[0]);
     for (const auto& [i, j] : pairs)
@@ -161,7 +164,8 @@ int run_comparison(const Job& job, app::Session& session) try {
   }
   std::vector<std::uint32_t> matched;
   const auto left_out = add_distances(meta, std::span(barcodes).first<2>(), matched, session);
-  for (const std::string& what : left_out)  // some formats have no room for them
+  // Stated here as well, because not all formats have room for it.
+  for (const std::string& what : left_out)
     session.note(fmt::format("left out: {}; at most {} are compared", what, kMostComparedBars));
   meta.provenance.run.peak_memory = app::peak_memory();
   const app::BarHold results_are_written(session);

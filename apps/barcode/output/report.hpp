@@ -22,9 +22,10 @@ struct Shown {
   std::vector<std::string> warnings;
 };
 
-/// Writes the interactive report; the caller commits the file. Beside the barcode it has the points
-/// or the image, and the merge tree of H0. The tree is missing if the complex was subsampled,
-/// approximated or cut, or if memory does not suffice, which a note says.
+/// Writes the interactive report; the caller commits the file. Besides the barcode, the report
+/// contains the points or the image, and the merge tree of H0. It has no tree if the complex was
+/// subsampled, approximated or cut off. If memory does not suffice for the tree, the tree is left
+/// out and a note says so.
 /// @throws Error (io, resource, cancelled).
 void write_report(OutputFile& file, const Shown& shown, const Job& job, app::Session& session);
 

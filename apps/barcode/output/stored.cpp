@@ -50,8 +50,8 @@ Outcome run_stored(const Job& job, const Input& input, Outputs& outputs, app::Se
     session.explain(what);
   else
     session.note(what);
-  // The other formats cannot hold the data that JSON stores beside the bars, and nobody expects
-  // these data there.
+  // Other formats cannot hold the further data of a JSON file, and nobody expects to find such data
+  // in them. Therefore a loss is noted only for JSON and, for p-values, for CSV.
   const bool loses_p =
       job.places.format == BarcodeFormat::csv && std::ranges::find(left_out, "p") != left_out.end();
   if (loses_p || (job.places.format == BarcodeFormat::json && !left_out.empty()))

@@ -20,7 +20,7 @@ inline std::string fewer_bars() {
 }
 
 /// Reads a stored barcode and writes what the job asks for: a converted file, a plot, a report.
-/// @throws Error (usage) on a plot of anything else; Error like read_barcode and OutputFile.
+/// @throws Error (usage) on a plot of anything but bars; Error like read_barcode and OutputFile.
 Outcome run_stored(const Job& job, const Input& input, Outputs& outputs, app::Session& session);
 
 /// The formats of the distances of two barcodes.

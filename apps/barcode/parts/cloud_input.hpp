@@ -21,8 +21,8 @@ struct CloudInput {
 /// @throws Error (usage) on anything but points, and if more than components is requested.
 CloudInput read_cloud_input(const std::string& input, const Job& job, app::Session& session);
 
-/// The part from a file, if it is this part of this cloud, complete, and not older than the cloud.
-/// Any other file is reported and must be computed anew.
+/// The part that a file holds, if it is this part of this cloud, complete, and not older than the
+/// cloud. Otherwise the part must be computed anew.
 std::optional<CloudPart> kept_cloud_part(const std::string& path, const std::string& input,
                                          const CloudInput& cloud, int part, int parts,
                                          app::Session& session);

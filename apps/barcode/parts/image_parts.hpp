@@ -22,8 +22,8 @@ Outcome foresee(const PartInput& read, int parts, std::string_view process);
 /// @throws Error (usage) if the input is not an image.
 Outcome run_image_part(const std::string& input, const Job& job, app::Session& session);
 
-/// The part from a file, if it is this part of this image, complete, and not older than the image.
-/// Any other file is reported and must be computed anew.
+/// The part that a file holds, if it is this part of this image, complete, and not older than the
+/// image. Otherwise the part must be computed anew.
 std::optional<ImagePart> kept_image_part(const std::string& path, const std::string& input,
                                          const PartInput& image, int part, int parts,
                                          app::Session& session);

@@ -98,7 +98,8 @@ InputsPart InputsPart::of_bytes(std::span<const std::byte> bytes) {
       from.refuse("code");
   }
   from.expect_end();
-  // Each input of its parts, and no other, exactly once.
+  // The part must hold exactly one result for each input of its parts, and none for any other
+  // input.
   auto next = part.results_.begin();
   for (std::size_t i = 0; i < whole.inputs.size(); ++i)
     if (std::ranges::binary_search(part.numbers_, part_of(i, whole.parts)) &&

@@ -33,9 +33,10 @@ class InputsPart {
   /// The parts that it has, ascending.
   std::span<const int> numbers() const { return numbers_; }
   bool is_whole() const { return numbers_.size() == static_cast<std::size_t>(whole_.parts); }
-  /// By input, ascending.
+  /// The results, sorted by the number of the input.
   std::span<const Result> results() const { return results_; }
-  /// The part that an input belongs to. Neighbours, which are often alike, are dealt out in turn.
+  /// The number of the part that an input belongs to. Consecutive inputs, which are often alike, go
+  /// to different parts in turn.
   static int part_of(std::size_t input, int parts) {
     return static_cast<int>(input % static_cast<std::size_t>(parts));
   }

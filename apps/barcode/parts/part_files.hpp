@@ -23,8 +23,8 @@ struct PartFile {
 /// True if a path is meant to hold a part: it ends in .ph.
 bool is_part_path(const std::string& path);
 
-/// The path of part I of P of an input: for a folder, which is created, a file named after the
-/// part.
+/// The path of one part of an input. If `output` is a folder, it is created, and the file in it is
+/// named after the part.
 /// @param part the number of the part, from 0. @throws Error (cannot_create).
 std::string part_path(const std::string& output, const std::string& name, int part, int parts);
 
@@ -37,8 +37,8 @@ std::optional<std::vector<std::byte>> kept_part_file(const std::string& path,
                                                      std::span<const std::string> inputs,
                                                      app::Session& session);
 
-/// The part of such a file that --resume may keep. A file that is damaged or holds another part is
-/// reported and must be computed anew.
+/// The part that a file holds, for --resume. If the file is damaged or holds another part, a note
+/// says so, and the part must be computed anew.
 /// @param of_bytes makes a part from bytes; throws Error (bad_data) on other bytes.
 /// @param why_not says why a part is not the requested one; empty: it is.
 template <class OfBytes, class WhyNot>

@@ -21,8 +21,8 @@
 namespace ph::barcode {
 namespace {
 
-/// The first layers of all parts if layers are distributed by their content: rank 0 examines a
-/// sample of the image and tells the others.
+/// The first layer of each part, if layers are distributed by their content. Rank 0 determines
+/// these layers from a sample of the image and sends them to the other ranks.
 std::vector<Index> shared_out(const PartInput& input, int parts, Post& post,
                               app::Session& session) {
   std::vector<Index> layers;
@@ -75,7 +75,8 @@ RankResult image_of_ranks(const Job& job, Transport& transport, app::Session& se
         [&] { return kept_image_part(result.kept, job.places.input, input, rank, parts, session); },
         [&] { return ImagePart(input.image, rank, parts, input.options, context); },
         [&](const ImagePart& part) {
-          if (!part.has_loops()) return true;  // loops need voxels, which no part file has
+          // The search for loops needs voxels, which no part file has.
+          if (!part.has_loops()) return true;
           session.note("--resume does nothing for loops of volumes: they are computed anew");
           return false;
         }));
@@ -83,7 +84,8 @@ RankResult image_of_ranks(const Job& job, Transport& transport, app::Session& se
   const bool has_loops = own && own->has_loops();
   if (has_loops && job.common.slab_layers > 0)
     session.note("--slab-layers does nothing for loops of volumes: they need all layers of a part");
-  std::optional<ImageLoops> loops;  // loops take the voxels before the part is destroyed
+  // Takes the voxels of the part before the part is joined and destroyed.
+  std::optional<ImageLoops> loops;
   if (has_loops) loops.emplace(*own, job.question.options.field, context);
 
   const std::optional<ImagePart> whole = join_ranks(std::move(own), post, context);

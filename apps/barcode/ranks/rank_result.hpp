@@ -57,8 +57,8 @@ auto kept_or_computed(const std::string& kept, const Job& job, app::Session& ses
 /// The message of --verbose for a rank that has finished.
 void explain_costs(const Post& post, app::Session& session);
 
-/// Computes an image, or the components of points, on all ranks; each rank calls it with the same
-/// job, and rank 0 writes.
+/// Computes an image, or the components of points, on all ranks. Each rank calls this function with
+/// the same job, and rank 0 writes the results.
 /// @param wait_for_all returns once all ranks have called it.
 /// @return the exit code of this rank. @throws Error.
 int run_ranks(const Job& job, Transport& transport, const std::function<void()>& wait_for_all,

@@ -33,9 +33,9 @@ std::vector<std::string> long_names(const CLI::App& app) {
   const std::string name = typed.substr(0, typed.find('='));
   const std::vector<std::string> known = long_names(app);
   const std::vector<std::string_view> views(known.begin(), known.end());
-  // One dash instead of two: find the name anyway.
+  // Also looks up a name that was typed with one dash instead of two.
   const std::string dashed = name.starts_with("--") ? name : "-" + name;
-  // One letter away from another name, but the dimension is meant.
+  // By its letters another option would be nearer, but these words mean the highest dimension.
   const std::string_view word = std::string_view(dashed).substr(2);
   const bool is_dimension = word == "dim" || word == "maxdim" || word == "dimension";
   const auto most = std::ranges::find_if(
@@ -84,8 +84,10 @@ bool is_common(const CLI::Option& option) {
 }  // namespace
 
 void add_common_options(Options& options, CommonOptions& common) {
-  options.cli()
-      .set_help_flag();  // ours comes below: it must not depend on the order of the options
+  options
+      .cli()
+      // Removed, because the effect of CLI11's own flag depends on the order of the options.
+      .set_help_flag();
   options.topic(kLimitsTopic.name);
   options.value("--threads", "N", "threads to use (default: one for each core)",
                 [&common](const std::string& text) {
@@ -131,7 +133,7 @@ std::vector<std::string> given_options(const Options& options,
     const std::string& name = option->get_lnames().front();
     if (std::ranges::find(without, name) != without.end()) continue;
     words.push_back("--" + name);
-    if (option->get_items_expected_max() > 0)  // else a flag
+    if (option->get_items_expected_max() > 0)  // otherwise the option is a flag
       words.insert(words.end(), option->results().begin(), option->results().end());
   }
   return words;
@@ -160,8 +162,8 @@ std::optional<std::string> parse_command_line(Options& options, const CommonOpti
     return program_and_version(app.get_name()) + "\n" +
            (common.verbose ? build_information() + manual.built_in() : "");
   }
-  // Checks the values of all options, because no path may stand for a descriptor that was not
-  // given.
+  // Checks the values of all options, because a path such as /dev/fd/4 must not stand for a
+  // descriptor that was not open at the start.
   for (const CLI::Option* option : app.get_options())
     for (const std::string& value : option->results()) require_given(name_of(*option), value);
   return std::nullopt;

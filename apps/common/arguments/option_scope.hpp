@@ -17,7 +17,7 @@ struct Scope {
   Situations where = ~Situations{0};  ///< the option has an effect in any of these
   std::string_view meant_for = {};    ///< the words for them: "points"
 
-  /// The same words for more situations.
+  /// This scope, extended by more situations; the words stay the same.
   constexpr Scope with(Situations more) const { return {where | more, meant_for}; }
 };
 

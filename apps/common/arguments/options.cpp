@@ -38,7 +38,7 @@ CLI::Option* Options::repeated(
           ->type_name(placeholder)
           ->type_size(1)
           ->expected(1)
-          ->allow_extra_args(false)  // what follows may be an input
+          ->allow_extra_args(false)  // the next argument may be an input
           ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   return limit(option, name.scope);
 }

@@ -86,7 +86,8 @@ class Options {
   /// The given options that have no effect in some situations, in the order of --help.
   std::vector<GivenOption> given() const;
 
-  /// Sets the situations in which an option has an effect that was registered directly with CLI11.
+  /// Sets the situations in which an option has an effect, for an option that was registered
+  /// directly with CLI11.
   CLI::Option* limit(CLI::Option* option, const Scope& scope);
 
  private:

@@ -19,10 +19,10 @@ struct Plot {
   std::string kind;               ///< a word of --plot-kind
   std::string option = "--plot";  ///< option that named the path
 
-  /// True if its name ends in .png; an unknown ending means SVG.
+  /// True if the file name ends in .png; a name with an unknown ending means SVG.
   bool is_png() const;
   bool is_svg() const;  ///< true if its name ends in .svg
-  /// True if it shows bars: a barcode, a diagram, Betti curves.
+  /// True if the picture shows bars: a barcode, a diagram, Betti curves.
   bool shows_bars() const { return plot_kind_named(kind).has_value(); }
 };
 
@@ -30,7 +30,7 @@ struct Plot {
 /// (not_built_in) on a PNG that this build cannot draw.
 void require_known_format(const Plot& plot);
 
-/// The file of a plot. @param what a barcode, a merge tree or a coloured picture.
+/// The content of the file of a plot. @param what a barcode, a merge tree or a coloured picture.
 template <class What>
 std::string drawn(const Plot& plot, const What& what, const PlotOptions& options,
                   const RunContext& context) {
@@ -41,12 +41,12 @@ std::string drawn(const Plot& plot, const What& what, const PlotOptions& options
 struct PlotLook {
   std::string option;
   bool (*fits)(const Plot& plot);
-  std::string meant_for;  ///< "bars": for the message that no plot fits
+  std::string meant_for;  ///< "bars"; used in the message that the option applies to no plot
 };
 
 /// --plot, --plot-kind and the look of plots, as they were typed.
 struct PlotArguments {
-  Scope scope;  ///< where plots are drawn
+  Scope scope;  ///< the situations in which plots are drawn
   std::vector<std::string> paths, kinds;
   PlotOptions look;             ///< look of all plots: title, size, axis, dimensions
   std::vector<PlotLook> looks;  ///< the options that set the look

@@ -12,7 +12,7 @@
 namespace ph::app {
 namespace {
 
-/// The numbers of bars whose death is infinite, whose birth is infinite, and for which both are.
+/// The numbers of bars for which only the death is infinite, only the birth, and both.
 std::array<std::size_t, 3> infinite_bars(std::span<const Bar> bars) {
   std::array<std::size_t, 3> counts{};
   for (const Bar& bar : bars) {

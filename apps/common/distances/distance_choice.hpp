@@ -40,9 +40,9 @@ struct DistanceChoice {
   DistanceLimits limits;  ///< for the other distances
 
   std::string_view name() const { return name_of(kind); }
-  /// p; infinite for the bottleneck distance.
+  /// The order p of the Wasserstein distance; infinite for the bottleneck distance.
   double order() const;
-  /// The norm that measures a pair of bars; none for the sliced distance.
+  /// The norm that measures how far apart two paired bars are; none for the sliced distance.
   std::optional<double> ground() const;
 };
 
@@ -61,8 +61,8 @@ struct DiagramMatching {
   /// either diagram is in exactly one pair.
   std::vector<std::pair<std::int64_t, std::int64_t>> pairs;
 };
-/// @param choice not the sliced distance, which pairs nothing. The bottleneck distance is exact,
-///        whatever its limits. @throws Error like the functions of ph/distances.hpp.
+/// @param choice any distance except the sliced one, which pairs no bars. The bottleneck distance
+/// is exact, whatever its limits. @throws Error like the functions of ph/distances.hpp.
 DiagramMatching matching_of(std::span<const Bar> a, std::span<const Bar> b,
                             const DistanceChoice& choice,
                             const RunContext& context = default_context());

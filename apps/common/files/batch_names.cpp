@@ -99,7 +99,8 @@ std::vector<std::string> files_in(const std::string& folder,
     throw Error(ErrorKind::no_input,
                 fmt::format("{}: {}", printable(folder),
                             error ? error.message() : fmt::format("a folder without {}", what)));
-  for (const std::string& file : files) require_given(printable(folder), file);  // links
+  // A link may lead to a descriptor.
+  for (const std::string& file : files) require_given(printable(folder), file);
   std::ranges::sort(files);
   return files;
 }

@@ -14,15 +14,17 @@ std::vector<std::string> output_names(const std::vector<std::string>& inputs);
 /// True if a path has a place for the name of each input: it is FOLDER/, or the file has a `*`.
 bool names_each(const std::string& path);
 
-/// The file for one of several inputs: in a folder, a file with its name; a `*` becomes its name.
-/// @param extension with its dot, for a folder.
+/// The output file for one of several inputs. If the pattern is a folder, it is a file in this
+/// folder with the name of the input; otherwise the name replaces `*`.
+/// @param extension the extension of a file in a folder, with its dot.
 std::string filled(const std::string& pattern, const std::string& name, std::string_view extension);
 
 /// Creates the folder that a pattern of `filled` names.
 /// @throws Error (usage) if it is neither a folder nor has a `*`; Error (cannot_create).
 void prepare_outputs(std::string_view option, const std::string& pattern);
 
-/// The files of a folder whose names end in one of these, in any case, sorted by name.
+/// The files of a folder whose names end in one of these extensions, in upper or lower case, sorted
+/// by name.
 /// @param what the word for such files in the message. @throws Error (no_input) if there are none.
 std::vector<std::string> files_in(const std::string& folder,
                                   std::span<const std::string_view> extensions,

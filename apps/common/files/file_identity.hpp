@@ -29,7 +29,8 @@ struct FileIdentity {
 class InputFiles {
  public:
   /// @param path as in Input::open: "-" is the source of standard input, "FILE.npz:NAME" is a part
-  /// of FILE.npz. A path that is not a file has nothing to lose.
+  /// of FILE.npz. A path that is not a file is ignored, because an output cannot destroy its
+  /// content.
   void add(const std::string& path);
   /// @throws Error (usage) "--output: a.csv is the input ./a.csv; …".
   void require_other(const Written& output) const;
@@ -40,8 +41,8 @@ class InputFiles {
   std::map<FileIdentity, std::string> paths_;
 };
 
-/// The path of an input or an output. @throws Error (usage) "--output: found /dev/fd/4, …" if it
-/// stands for a descriptor that was not open when the program started, because by now the program
+/// The path of an input or an output. @throws Error (usage) "--output: found /dev/fd/4, …" if the
+/// path stands for a descriptor that was not open when the program started. By now, the program
 /// itself may use this descriptor.
 std::string require_given(std::string_view option, const std::string& path);
 
@@ -49,8 +50,8 @@ std::string require_given(std::string_view option, const std::string& path);
 /// to one pipe or device other than /dev/null.
 void require_distinct(std::span<const Written> outputs);
 
-/// Checks both: each output is a separate file, and none is an input.
-/// @param force outputs may replace inputs. @return whether one does.
+/// Checks that each output is a separate file and that none is an input.
+/// @param force true if outputs may replace inputs. @return true if an output replaces an input.
 bool require_separate(const InputFiles& inputs, std::span<const Written> outputs, bool force);
 
 }  // namespace ph::app

@@ -19,12 +19,14 @@ namespace ph::app {
 std::vector<std::string> barcode_files(const std::vector<std::string>& inputs,
                                        std::span<const std::string_view> others = {});
 
-/// Opens an input; no progress is drawn while it is typed. @throws Error like Input::open.
+/// Opens an input. If somebody types it at a terminal, no progress is drawn meanwhile. @throws
+/// Error like Input::open.
 Input open_input(const std::string& path, Session& session,
                  Input::Excess excess = Input::Excess::refused);
 
-/// Checks that compared barcodes were computed in the same way, as far as their files say so (JSON
-/// does): a note names the first file that differs from the first of all, and the difference.
+/// Checks that the barcodes to compare were computed in the same way, as far as their files state
+/// this (JSON files do). If the settings of a file differ from those of the first file, a note
+/// names both files and the difference.
 class SameOrigin {
  public:
   explicit SameOrigin(Session& session) : session_(session) {}

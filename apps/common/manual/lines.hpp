@@ -16,7 +16,8 @@ std::vector<std::string> wrapped(std::string_view text, std::size_t columns);
 /// The same for a list of alternatives, a|b|c, which is broken after `|`.
 std::vector<std::string> wrapped_list(std::string_view text, std::size_t columns);
 
-/// The number of terminal columns of a text: UTF-8, without wide characters.
+/// The number of terminal columns that a UTF-8 text takes; the text must not contain wide
+/// characters.
 std::size_t columns_of(std::string_view text);
 
 /// The text with a backslash before each of these characters.

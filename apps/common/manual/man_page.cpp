@@ -14,8 +14,8 @@ namespace {
 
 constexpr std::size_t kSourceWidth = 76;  // columns of the lines in the page's source
 
-/// One character outside ASCII, by its roff name. @param rest begins with the character, which is
-/// removed.
+/// The roff name of the character outside ASCII at the beginning of a text. @param rest the text,
+/// from which the character is removed.
 std::string special_character(std::string_view& rest) {
   if (constexpr std::string_view kDots = "…"; rest.starts_with(kDots)) {
     rest.remove_prefix(kDots.size());
@@ -43,7 +43,7 @@ std::string roff(std::string_view text, bool is_typed) {
       escaped += "\\e";
     else if (c == '-' && is_typed)  // mutant: help-dash
       escaped += "\\-";
-    else if (c == '^' || c == '~' || c == '`')  // the ASCII characters, not accents
+    else if (c == '^' || c == '~' || c == '`')  // these names avoid accents
       escaped += fmt::format("\\({}", c == '^' ? "ha" : c == '~' ? "ti" : "ga");
     else
       escaped += c;

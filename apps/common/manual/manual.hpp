@@ -9,7 +9,7 @@ namespace ph::app {
 
 /// A group of options, which `--help NAME` shows.
 struct Topic {
-  std::string_view name;   ///< "rips"; options refer to their topic by it
+  std::string_view name;   ///< such as "rips"; options refer to their topic by this name
   std::string_view title;  ///< "Rips complexes"
 };
 
@@ -26,7 +26,7 @@ struct Example {
 /// A format of files.
 struct FormatText {
   std::string_view name, what;
-  std::string_view example;  ///< a line of it, or nothing
+  std::string_view example;  ///< a line in this format; may be empty
 };
 struct FormatList {
   std::string title;

@@ -20,8 +20,8 @@ std::string_view option_in(std::string_view word) {
   return word.substr(0, static_cast<std::size_t>(end - word.begin()));
 }
 
-/// A text with its options as references, in lines. Characters with a meaning in Markdown are
-/// escaped.
+/// A text, broken into lines, in which the names of options are references. Characters with a
+/// meaning in Markdown are escaped.
 std::string markdown_text(const Described& program, std::string_view text) {
   std::string marked;
   for (std::string_view word : words_of(text)) {

@@ -39,7 +39,7 @@ struct OptionText {
   std::string head() const;
   /// The description, with the options that this option excludes.
   std::string text() const;
-  /// The first part of the description, without its default.
+  /// The first part of the description, which does not state the default.
   std::string brief() const;
 };
 

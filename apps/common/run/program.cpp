@@ -24,7 +24,7 @@ bool advises(const Error& error, Setting setting) {
                              [setting](const Remedy& remedy) { return remedy.setting == setting; });
 }
 
-/// The work of report_current_exception if there is memory for a message.
+/// Does the work of report_current_exception, if there is memory for a message.
 int report_with_memory(std::string_view prefix, std::string_view memory_advice) {
   const auto report = [&](std::string_view what, int code) {
     print_line(fmt::format("{}: {}", prefix, what));

@@ -20,8 +20,8 @@ struct Program {
 int run_program(const Program& program, const std::function<int(std::stop_token)>& body);
 
 /// The exit code of the exception in flight. Reports the exception on stderr as `name: subject:
-/// what`, unless it is a broken pipe or a stop request. For programs that continue with the next
-/// input.
+/// what`, unless it is a broken pipe or a stop request. Programs that continue with the next input
+/// call it.
 int report_current_exception(const Program& program, std::string_view subject = {});
 
 }  // namespace ph::app

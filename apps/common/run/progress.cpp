@@ -31,7 +31,7 @@ ProgressReporter::ProgressReporter(ProgressMode mode, bool quiet, std::optional<
   try {
     repeater_ = std::jthread([this](const std::stop_token& stop) { repeat(stop); });
   } catch (const std::system_error&) {
-    return;  // no room for a thread: only reports are shown
+    return;  // the system has no thread left: only reports are shown
   }
 }
 

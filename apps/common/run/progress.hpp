@@ -14,10 +14,11 @@
 namespace ph::app {
 
 /// Shows progress on stderr: a bar on a terminal, one JSON object per line, or nothing. A bar
-/// appears only after half a second, with the first report, and any message erases it. If a stage
-/// has nothing to report for most of a second (a large array is moved, a file is read in one
-/// piece), the last report is shown again, so that a computing program gives a sign of life every
-/// second. Lines of JSON do this from the start, and are never held back.
+/// appears only after half a second, with the first report, and any message erases it. A stage may
+/// have nothing to report for most of a second, for example while a large array is moved or a file
+/// is read in one piece. In that case the last report is shown again, so that a computing program
+/// gives a sign of life every second. Lines of JSON are repeated in this way from the start, and
+/// are never held back.
 class ProgressReporter {
  public:
   /// @param rank the rank of this process, if several compute together.
@@ -26,8 +27,8 @@ class ProgressReporter {
 
   bool active() const { return mode_ == ProgressMode::bar || mode_ == ProgressMode::json; }
   void report(const Progress& progress);
-  /// Erases the bar and draws none until `release` was called equally often and another report
-  /// comes: the terminal belongs to results, or to somebody who types.
+  /// Erases the bar. No bar is drawn until `release` has been called as often as `hold` and another
+  /// report comes. Meanwhile the terminal shows results, or somebody types in it.
   void hold();
   void release();
 

@@ -30,7 +30,7 @@ class Session {
 
   /// Writes one line to stderr in the form of the programs: `program: text`. Silent with --quiet.
   void note(const Message& text);
-  /// The same, only with --verbose.
+  /// Writes such a line only with --verbose.
   void explain(const Message& text);
 
   /// To be called after a run that reached the memory limit, see HeapBound::loosen.
@@ -47,9 +47,9 @@ class Session {
   std::uint64_t memory_at_start_;
 };
 
-/// While it lives, no progress bar is drawn, and after it none until the next report. For times
-/// when results are written, which may go to the same terminal, when input is typed, and when the
-/// next step is unknown.
+/// While this object lives, and afterwards until the next report, no progress bar is drawn. It is
+/// used while results are written, which may go to the same terminal, while input is typed, and
+/// while the next step is unknown.
 class BarHold {
  public:
   explicit BarHold(Session& session);
@@ -61,7 +61,8 @@ class BarHold {
   ProgressReporter& progress_;
 };
 
-/// True if one of the inputs is typed: standard input, "-", if that is a terminal.
+/// True if one of the paths is "-" and standard input is a terminal, so that somebody types the
+/// input.
 bool is_typed(std::initializer_list<std::string_view> paths);
 
 /// An output file whose temporary name is removed even if a signal ends the program at once. Open

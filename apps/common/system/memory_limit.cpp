@@ -35,7 +35,7 @@ void HeapBound::bound(std::size_t bytes) {
   const auto now = status_bytes("VmData:");  // the memory that RLIMIT_DATA counts
   std::uint64_t limit = 0;
   if (!at_start_ || !now) return;
-  // The free end of the heap is reserved but not used.
+  // The free end of the heap counts as data of the process, but it is not in use.
   const std::uint64_t taken = *now - std::min<std::uint64_t>(*now, mallinfo2().keepcost);
   if (__builtin_add_overflow(taken + slack, bytes, &limit)) return;
   if (limit >= *at_start_) return;

@@ -18,8 +18,8 @@ class HeapBound {
 
   /// Limits the memory of the process to `bytes` more than it has now.
   void bound(std::size_t bytes);
-  /// Relaxes the limit a little, for good: after a run that reached it, addresses between blocks
-  /// still in use are lost to the next run.
+  /// Raises the limit a little, for good. After a run that reached the limit, the gaps between
+  /// blocks that are still in use are lost to the next run.
   void loosen();
 
  private:

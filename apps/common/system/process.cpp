@@ -13,7 +13,7 @@ namespace ph::app {
 namespace {
 
 /// Occupies the standard descriptors that the caller closed, so that no file we open becomes
-/// "standard output" by accident. They are opened the wrong way round on purpose: using them is an
+/// "standard output" by accident. Each is opened for the wrong direction on purpose: using it is an
 /// error.
 void occupy_standard_descriptors() {
   for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
@@ -22,9 +22,9 @@ void occupy_standard_descriptors() {
       static_cast<void>(open("/", O_PATH));  // always exists, is neither read nor written
 }
 
-/// Freed blocks are kept for the next stage up to a size, because mapping and faulting in each
-/// block anew would cost a short run a tenth of its time. Beyond this size, growing vectors would
-/// leave holes that nobody counts.
+/// Keeps freed blocks up to a certain size for the next stage, because mapping and faulting in each
+/// block anew would cost a short run a tenth of its time. Larger blocks are returned to the system,
+/// because growing vectors would otherwise leave holes that the budget does not count.
 void keep_freed_memory() {
   mallopt(M_MMAP_THRESHOLD, 4 << 20);
   mallopt(M_TRIM_THRESHOLD, 256 << 20);
@@ -47,7 +47,7 @@ bool is_given(int descriptor) {
 void give_back_freed_memory() { malloc_trim(0); }
 
 std::uint64_t peak_memory() {
-  // Not the value of getrusage, which includes the program that started this one.
+  // getrusage is not used, because its value includes the program that started this one.
   if (const auto peak = status_bytes("VmHWM:")) return *peak;
   rusage usage{};
   return getrusage(RUSAGE_SELF, &usage) == 0 ? static_cast<std::uint64_t>(usage.ru_maxrss) * 1024

@@ -9,8 +9,8 @@ namespace ph::app {
 /// allocator that keeps freed blocks.
 void prepare_process();
 
-/// True if a descriptor is open and was open when the program started: not a descriptor of its own,
-/// which is closed in programs that it starts.
+/// True if a descriptor is open and was open when the program started. Descriptors that the program
+/// opened itself do not count.
 bool is_given(int descriptor);
 
 /// Makes the allocator return all freed blocks.

@@ -20,8 +20,8 @@
 namespace ph::app {
 namespace {
 
-// A handler may touch only lock-free atomics and memory that does not move, hence the globals; like
-// signals, they belong to the process.
+// A handler may touch only lock-free atomics and memory that does not move, so these are globals;
+// like signals, they belong to the process.
 constexpr std::array kSignals{SIGINT, SIGTERM, SIGHUP};
 
 std::atomic<int> first_signal{0};
@@ -57,7 +57,7 @@ void on_signal(int signal) {
 
 /// This signal comes at the instruction that reads, never within a message or a system call.
 void on_lost_page(int signal, siginfo_t* what, void*) {
-  if (what->si_code != BUS_ADRERR) {  // a fault of ours: behave as if there were no handler
+  if (what->si_code != BUS_ADRERR) {  // a bug of the program: behave as if there were no handler
     std::signal(signal, SIG_DFL);
     return;
   }
@@ -93,7 +93,8 @@ SignalWatch::SignalWatch() {
   sigemptyset(&action.sa_mask);
   for (const int signal : kSignals) {
     struct sigaction was {};
-    // nohup and shells with background jobs ignore signals for us: leave them ignored.
+    // nohup, and shells for their background jobs, start the program with signals that are ignored.
+    // Such signals stay ignored.
     if (sigaction(signal, nullptr, &was) == 0 && was.sa_handler == SIG_IGN) continue;
     sigaction(signal, &action, nullptr);
   }
@@ -102,7 +103,7 @@ SignalWatch::SignalWatch() {
 SignalWatch::~SignalWatch() {
   if (!thread_.joinable()) return;
   const char byte = 0;
-  if (write(pipe_ends[1], &byte, 1) != 1) {  // the end of the pipe serves as well
+  if (write(pipe_ends[1], &byte, 1) != 1) {  // closing the pipe wakes the thread as well
     wake_descriptor = -1;
     close(pipe_ends[1]);
   }

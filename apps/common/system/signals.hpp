@@ -29,8 +29,9 @@ class SignalWatch {
   std::thread thread_;
 };
 
-/// While it lives, signals do not end the process: for files with a name that is not their own yet.
-/// For one thread at a time.
+/// While this object lives, signals do not end the process. It covers the moments at which a file
+/// that signals must remove is not yet registered. Only one thread at a time may have such an
+/// object.
 class SignalsWait {
  public:
   SignalsWait();
@@ -44,7 +45,7 @@ class SignalsWait {
 /// removed. @param program named in the message; lives as long as the process.
 void end_where_mapped_files_shrink(std::string_view program);
 
-/// Registers a file to remove if a signal ends the process at once. @return a slot for
+/// Registers a file to be removed if a signal ends the process at once. @return a slot for
 /// unregistering it; -1 if the name is empty or too long, or if there are too many.
 int remember_temporary(const std::string& path);
 void forget_temporary(int slot);

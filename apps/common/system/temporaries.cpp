@@ -13,8 +13,8 @@
 namespace ph::app {
 namespace {
 
-// A handler may touch only lock-free atomics and memory that does not move, hence the globals; like
-// signals, they belong to the process.
+// A handler may touch only lock-free atomics and memory that does not move, so these are globals;
+// like signals, they belong to the process.
 constexpr std::size_t kSlots = 64;
 constexpr std::size_t kLongestName = 4096;
 

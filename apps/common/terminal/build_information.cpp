@@ -5,7 +5,7 @@
 #include <png.h>
 #include <zlib.h>
 
-#include <Eigen/src/Core/util/Macros.h>  // the version; all of it takes seconds
+#include <Eigen/src/Core/util/Macros.h>  // all of Eigen takes seconds to compile
 #include <CLI/Version.hpp>
 #include <string_view>
 

@@ -34,7 +34,8 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 
 std::optional<std::string_view> nearest_name(std::string_view typed,
                                              std::span<const std::string_view> names) {
-  constexpr std::size_t kLongestWord = 64;  // nobody mistypes more; bounds the cost
+  // Nobody mistypes longer words; the limit bounds the cost.
+  constexpr std::size_t kLongestWord = 64;
   if (typed.empty() || typed.size() > kLongestWord) return std::nullopt;
   const auto word_of = [](std::string_view name) {
     return name.substr(std::min(name.find_first_not_of('-'), name.size()));

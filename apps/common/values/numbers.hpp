@@ -14,7 +14,7 @@ namespace ph::app {
 
 /// A number; `inf` is accepted, NaN is not.
 double parse_number(std::string_view option, std::string_view text);
-/// Several numbers separated by commas. @param count how many; 0: at least one.
+/// Several numbers separated by commas. @param count the required number of values; 0: one or more.
 std::vector<double> parse_numbers(std::string_view option, std::string_view text,
                                   std::size_t count = 0);
 /// A whole number from `least` to `most`.

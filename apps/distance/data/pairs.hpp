@@ -21,7 +21,7 @@ class PairDistances {
   std::size_t count() const { return count_; }
   const std::vector<int>& dims() const { return dims_; }
   std::size_t pairs() const { return count_ * (count_ - 1) / 2; }
-  /// The distance of two barcodes, b < a, in the dimension at an index of dims().
+  /// The distance of the barcodes a and b, b < a. @param dim the index of the dimension in dims().
   DistanceBounds& at(std::size_t dim, std::size_t a, std::size_t b) {
     return bounds_[dim * pairs() + a * (a - 1) / 2 + b];
   }

@@ -37,7 +37,7 @@ struct CutArguments {
   std::optional<bool> objects;
   std::optional<double> min_seam;
 
-  /// The options of a cut: the given values, and all others from the tree.
+  /// The options of a cut: the given values and, where none is given, the values of the tree.
   CutOptions over(const CutOptions& tree) const {
     return {value.value_or(tree.value), min_part.value_or(tree.min_part),
             min_size.value_or(tree.min_size), objects.value_or(tree.objects),
@@ -72,7 +72,7 @@ struct Arguments {
   bool is_depth_image() const;
 };
 
-/// The files that are read, except frames in folders and lists: no output may replace them.
+/// The files that are read, except frames in folders and lists. No output may replace them.
 app::InputFiles inputs_of(const Arguments& arguments);
 
 /// Reads the command line; prints nothing.

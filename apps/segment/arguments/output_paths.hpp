@@ -33,11 +33,12 @@ struct OutputOption {
   std::string_view option;         ///< "--output"
   std::string OutputPaths::*path;  ///< null: --plot, which may request several files
   std::string_view names, help;    ///< its names and description in --help
-  app::Scope scope = {};           ///< where it has an effect
+  app::Scope scope = {};           ///< the situations in which it has an effect
   /// The extensions that its file may have; in a folder of results, the file has the first one.
   /// Empty: any extension.
   std::span<const std::string_view> extensions;
-  bool shows_labels = false, shows_colours = false;  ///< the file depends on labels, on colours
+  /// True if the file depends on labels, or on colours.
+  bool shows_labels = false, shows_colours = false;
 };
 
 /// The options that request files, in the order of --help.
@@ -64,7 +65,7 @@ struct OutputPaths {
   }
   /// The requested files, with their options.
   std::vector<app::Written> written() const;
-  /// Of these files, the ones that a stream writes for each of its frames.
+  /// The requested files that a stream writes for each of its frames, with their options.
   std::vector<app::Written> of_each_frame() const;
   /// The files of one frame. @param name stands for the frame in the names of its files.
   OutputPaths filled(const std::string& name) const;

@@ -8,7 +8,8 @@
 
 namespace ph::segment {
 
-/// The lines of a list of frames, a file or a pipe, each as soon as it has arrived.
+/// Reads the lines of a list of frames from a file or a pipe, and returns each line as soon as it
+/// has arrived.
 class FrameList {
  public:
   /// @param path "-" is standard input. @param context outlives the list.
@@ -18,8 +19,8 @@ class FrameList {
   FrameList(const FrameList&) = delete;
   FrameList& operator=(const FrameList&) = delete;
 
-  /// The names known so far: all names of a file, none of a pipe, which may have no end. `next`
-  /// returns them all the same. @throws like `next`.
+  /// The names that are known without waiting: all names of a file, but none of a pipe, because a
+  /// pipe may have no end. `next` returns these names as well. @throws like `next`.
   const std::deque<std::string>& known();
   /// Waits for the next name. @return empty after the last one.
   /// @throws Error (io) if reading fails midway; Error (bad_data) on a NUL and on a line longer
@@ -33,7 +34,7 @@ class FrameList {
   const RunContext& context_;
   std::string name_;  // printable
   int file_ = -1;
-  bool is_file_ = false;  // otherwise its end may never come
+  bool is_file_ = false;  // true for a file; the end of a pipe may never come
   std::string read_;      // the bytes after the last line
   std::deque<std::string> ahead_;
 };

@@ -43,7 +43,8 @@ FrameSource::FrameSource(const Arguments& a, const RunContext& context)
   if (!a.frames_from.empty()) list_.emplace(a.frames_from, context);
 }
 
-/// The names of the inputs.
+/// Gives each input a name for its files. @throws Error (usage) if two inputs would have the same
+/// files.
 void FrameSource::take_names() {
   names_ = app::output_names(inputs_);
   for (std::size_t i = 0; i < names_.size(); ++i) {

@@ -19,8 +19,9 @@ struct Frame {
   OutputPaths files;
 };
 
-/// The frames of a stream, one after the other: inputs, the files of folders by name, and then the
-/// lines of a list, each as soon as it has arrived.
+/// The frames of a stream, one after the other. The inputs come first, with each folder replaced by
+/// its files in the order of their names. Then come the lines of a list, each as soon as it has
+/// arrived.
 class FrameSource {
  public:
   /// Creates the folders of the outputs. @throws Error (usage) if two frames would have the same
@@ -28,8 +29,8 @@ class FrameSource {
   /// (cannot_create).
   FrameSource(const Arguments& arguments, const RunContext& context);
 
-  /// Adds the frames that are known before the first one is requested: all except those of a list
-  /// that can be read only once, a pipe, which may have no end.
+  /// Adds the frames that are known before the first one is requested. These are all frames except
+  /// the ones that a pipe lists, because a pipe can be read only once and may have no end.
   void add_known(app::InputFiles& known);
   /// @return empty after the last one. @throws Error like FrameList::next.
   std::optional<Frame> next();
@@ -41,19 +42,20 @@ class FrameSource {
   std::string name_of(const std::string& input);
 
   const OutputPaths& patterns_;
-  bool has_files_;  // each frame has files, so names matter
+  bool has_files_;  // true if each frame has output files, for which names matter
   std::vector<std::string> inputs_, names_;
   std::size_t given_ = 0;
   std::optional<FrameList> list_;
-  // Names that are taken, each with the last number appended to it. Empty without files: a stream
-  // may be endless.
+  // The names in use, each with the last number that was appended to it. Without output files it
+  // stays empty, because a stream may be endless.
   std::unordered_map<std::string, std::size_t> taken_;
-  // The files of all frames, if each frame has several: two patterns may give one file from
-  // different names, such as a-2 in `*.npy` and a in `*-2.npy`.
+  // The output files of all frames so far, if each frame has several. Two patterns may give one
+  // file from different names: `*.npy` from a-2, and `*-2.npy` from a.
   std::unordered_set<std::string> taken_files_;
 };
 
-/// Reads the camera that --camera names, and reports anything not obvious: nominal values, a lens.
+/// Reads the camera that --camera names, and reports facts that are not obvious, such as nominal
+/// values or a lens that distorts.
 /// @throws Error like ph::read_camera.
 void load_camera(DepthInput& image, app::Session& session);
 

@@ -21,7 +21,8 @@ struct RunInfo {
   bool from_tree = false;   ///< true if a stored tree was cut
   /// The name of each segment in the files; empty: its label.
   std::vector<std::uint32_t> numbers = {};
-  /// For each segment, empty for a segment for which memory did not suffice; empty: not requested.
+  /// For each segment its homology, or nothing if memory did not suffice for it. The list is empty
+  /// if signatures were not requested.
   std::vector<std::optional<Barcode>> signatures = {};
   // For the report.
   std::string sha256 = {};                 ///< hash of the input
@@ -32,7 +33,7 @@ struct RunInfo {
   }
 };
 
-/// Where the barcode of a segmentation came from.
+/// The origin of the barcode of a segmentation, as files state it.
 BarcodeInfo barcode_info(const Segmentation& segmentation, const RunInfo& info);
 
 /// The files that the command line requests. They are opened before the computation; at the end,

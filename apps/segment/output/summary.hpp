@@ -16,7 +16,7 @@ std::string text_summary(const Segmentation& segmentation);
 /// The place where two segments join, in one line. @throws Error (usage) like first_meeting.
 std::string explanation(const Segmentation& segmentation, std::uint32_t a, std::uint32_t b);
 
-/// The run in one line: what each stage left.
+/// One line about the run: what each stage has left of the cloud.
 std::string one_line_summary(const Segmentation& segmentation);
 
 }  // namespace ph::segment

@@ -38,7 +38,7 @@ Cubical read_cubical(const Input& input, CubicalOptions cubical, const Arguments
   if (cubical.periodic.empty()) cubical.periodic = read.periodic;
   if (cubical.periodic.size() > image->extents.size() &&
       cubical.periodic == std::vector<bool>(Cubical::kMaxDim, true))
-    cubical.periodic.resize(image->extents.size());  // all
+    cubical.periodic.resize(image->extents.size());  // all axes
   return Cubical(*image, cubical, session.context());
 }
 

@@ -35,7 +35,8 @@ struct InfiniteRule {
   double cap = 0;
 };
 
-/// The parameters for the bars of one dimension, or for an Euler curve of all of them.
+/// The parameters for the bars of one dimension or, for an Euler curve, for the bars of all
+/// dimensions.
 struct Block {
   int dim = 0;       ///< unused for an Euler curve
   Grid grid;         ///< for curves and landscapes
@@ -65,8 +66,8 @@ std::vector<std::string> names_of(const Fit& fit);
 /// True if the function for this kind accepts infinite bars; then --infinite keep is allowed.
 bool may_keep_infinite(Kind kind);
 
-/// An error of a library function that received the bars of an input: it begins with the name of
-/// the input instead of the function's, and suggests the option.
+/// Rewords an error of a library function that received the bars of an input: the message begins
+/// with the name of the input instead of the function's name, and suggests the option that helps.
 Error about_input(const Error& error, std::string_view name);
 
 /// The bars of a block in the form that its function expects. @param name the name of the input,

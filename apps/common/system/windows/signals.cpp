@@ -17,7 +17,7 @@ namespace {
 std::atomic<int> first_signal{0};
 std::mutex mutex;
 std::stop_source* watched = nullptr;  // guarded by the mutex
-std::mutex may_end;                   // the holder is waited for
+std::mutex may_end;                   // the process does not end while another thread holds it
 
 [[noreturn]] void end_at_once(int signal) {
   const std::scoped_lock lock(may_end);
@@ -31,7 +31,7 @@ bool request_stop() {
   return watched != nullptr && watched->request_stop();
 }
 
-/// Each call has its own thread.
+/// The system calls it on a new thread each time.
 BOOL WINAPI on_control(DWORD what) {
   constexpr DWORD kGraceMilliseconds = 60;
   const int signal = what == CTRL_C_EVENT ? SIGINT : SIGTERM;
@@ -60,7 +60,8 @@ SignalWatch::~SignalWatch() {
 
 int SignalWatch::received() { return first_signal.load(); }
 
-void end_where_mapped_files_shrink(std::string_view) {}  // the system keeps them unchanged
+// Nothing to do: the system does not let mapped files shrink.
+void end_where_mapped_files_shrink(std::string_view) {}
 
 SignalsWait::SignalsWait() { may_end.lock(); }
 SignalsWait::~SignalsWait() { may_end.unlock(); }
