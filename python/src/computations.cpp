@@ -93,7 +93,7 @@ std::vector<WayOut> ways_to_fit(const Recipe& recipe, const Task& task, const Ru
   return ways;
 }
 
-/// The remaining edges: larger end, smaller end, value.
+/// The remaining edges, as arrays of their larger ends, their smaller ends and their values.
 py::tuple collapsed_edges(const RipsRecipe& recipe, const RunOptions& options) {
   struct Edges {
     std::vector<std::int64_t> u, v;

@@ -31,7 +31,7 @@ class Answer {
   py::dict operator()(Points& points) const {
     return of("points", {{"points", py::cast(Block::of(std::move(points)))}});
   }
-  /// Both triangles, with births on the diagonal.
+  /// The square matrix, with both of its triangles, and with births on the diagonal.
   py::dict operator()(DistanceMatrix& distances) const {
     const Index n = distances.size();
     std::vector<double> square;

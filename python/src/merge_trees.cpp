@@ -29,7 +29,7 @@ MergeTree merge_tree_of(const Recipe& recipe, const RunOptions& options, std::si
   });
 }
 
-/// One member of all merges, as an array.
+/// One member of the merges, as an array with one entry per merge.
 template <class Number, class Member>
 Block column(const MergeTree& tree, Member Merge::*member) {
   std::vector<Number> numbers;

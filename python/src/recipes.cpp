@@ -162,7 +162,8 @@ std::unique_ptr<Recipe> lower_star_of(const py::buffer& vertices, const py::buff
                                       const py::buffer& vertex_values,
                                       std::optional<double> threshold) {
   SimplexList list{vector_of<Index>(vertices), sizes_of(offsets), {}};
-  list.values.resize(list.size());  // values without an effect
+  // The values are ignored: the complex is that of the vertices' values.
+  list.values.resize(list.size());
   std::vector<double> values = vector_of<double>(vertex_values);
   const std::size_t cells = values.size() + 4 * list.vertices.size();
   return std::make_unique<ListedRecipe>(

@@ -15,7 +15,7 @@
 
 namespace ph::python {
 
-/// True if bars of H1 that have cycles also get loops.
+/// The loops to compute for each cycle of H1: none, loops as they are found, or shortened loops.
 enum class LoopChoice { none, plain, tight };
 
 /// The computation to run.
@@ -42,8 +42,7 @@ class Recipe {
   /// For each vertex of the complex its number in the input; empty: the vertex's own number.
   virtual const std::vector<Index>& vertex_ids() const;
 
-  // For a page that shows the data.
-  /// The points, if the complex is built from points.
+  // The points, for a page that shows the data; empty if the complex is not built from points.
   virtual std::optional<PointsView> points() const { return std::nullopt; }
   /// True if the edges up to a value are exactly the pairs of points within this distance.
   virtual bool is_euclidean() const { return false; }

@@ -15,7 +15,8 @@
 namespace ph::python {
 namespace {
 
-/// p-values of rows birth, death, and p-values corrected for their number.
+/// Returns the p-values of rows birth, death, and the p-values that are corrected for the number of
+/// rows.
 py::tuple p_values(const py::buffer& bars, const std::string& filtration) {
   const py::buffer_info info = bars.request();
   const PointsView rows = points_of(info);
@@ -36,7 +37,8 @@ double radius(const py::buffer& points, double alpha, std::size_t subsamples, st
   });
 }
 
-/// Mean and half the width of the band. @param functions an array of one axis, row after row.
+/// Returns the mean, and half the width of the band. @param functions an array of one axis, row
+/// after row.
 py::tuple band(const py::buffer& functions, std::size_t samples, double alpha,
                std::size_t repetitions, std::uint64_t seed, const RunOptions& options) {
   const py::buffer_info info = functions.request();
@@ -47,7 +49,8 @@ py::tuple band(const py::buffer& functions, std::size_t samples, double alpha,
   return py::make_tuple(Block::of(std::move(found.mean)), found.half_width);
 }
 
-/// p, loss. @param distances a square matrix. @param groups one per row.
+/// Returns p and the loss. @param distances a square matrix. @param groups the group of each row of
+/// the matrix.
 py::tuple permutation(const py::buffer& distances, const py::buffer& groups, std::size_t shuffles,
                       double power, std::uint64_t seed, const RunOptions& options) {
   const py::buffer_info info = distances.request(), labels = groups.request();

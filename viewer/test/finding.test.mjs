@@ -62,7 +62,7 @@ test("a few loops and no noise: all of them", () => {
     "Two loops stand out: there are no others, and the shorter is [0.107, 0.82).",
   );
   assert.deepEqual(two.bars, [4, 5]);
-  // Shorter than a third of the longest, but no speck.
+  // Both are shorter than a third of the longest, but too long to count as specks.
   assert.equal(finding([...points, [1, 0, 1], [1, 0.3, 0.6], [1, 0.3, 0.55]]).bars.length, 3);
   assert.equal(finding([...points, [1, 0, 1], [1, 0.3, 0.38]]).bars.length, 1);
 });

@@ -213,7 +213,7 @@ test("pages", { timeout: 500_000 }, async (t) => {
     );
     const inner = page.frameLocator("iframe");
     await inner.locator("#app[data-first-frame]").waitFor();
-    await inner.locator(".chip").first().click(); // what is kept in the address elsewhere
+    await inner.locator(".chip").first().click(); // elsewhere, the address keeps this state
     await page.waitForTimeout(400);
     assert.ok(await inner.locator(".diagram canvas").first().isVisible());
     assert.deepEqual(problems, []);

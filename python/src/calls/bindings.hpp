@@ -11,7 +11,7 @@
 
 namespace pybind11::detail {
 
-/// A value of an enum with names is its name in Python.
+/// In Python, a value of an enum with names is represented by its name.
 template <class Enum>
 requires(std::is_enum_v<Enum>&& ph::names_of<Enum>.size() > 0) class type_caster<Enum> {
  public:

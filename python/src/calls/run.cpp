@@ -26,7 +26,7 @@ using Task = std::function<void(const SharedContext&)>;
 
 constexpr std::chrono::milliseconds kLook(20);
 
-/// The free memory of the machine for this process, less the memory that it already uses: the
+/// The free memory of the machine, less the memory that this process already uses, such as the
 /// arrays of the caller.
 std::size_t memory_left() {
   static const std::size_t all = machine_memory();  // slow to find out

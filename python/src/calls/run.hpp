@@ -16,8 +16,8 @@ namespace ph::python {
 
 namespace py = pybind11;
 
-/// The options that bound, watch and stop a computation. Made with the GIL, because it holds Python
-/// objects.
+/// The options that bound, watch and stop a computation. They hold Python objects, so they must be
+/// made while the GIL is held.
 struct RunOptions {
   int threads = 0;                          ///< 0: one per core
   std::optional<std::size_t> memory_limit;  ///< bytes; none: the free memory of the machine

@@ -22,14 +22,14 @@ struct DistanceArray {
   bool is_condensed = false;
   Symmetrise symmetrise = Symmetrise::none;  ///< for a square matrix
   NanPolicy nan = NanPolicy::error;          ///< drop: such a pair is never joined
-  bool has_zero_diagonal = true;             ///< else its value is ignored
+  bool has_zero_diagonal = true;             ///< false: the values on the diagonal are ignored
   bool has_nan_option = true;                ///< false: messages do not suggest it
 
   /// The index of the pair i < j in the condensed form.
   Index condensed_place(Index i, Index j) const { return i * (2 * points - i - 1) / 2 + j - i - 1; }
 };
 
-/// A metric, once `check_distances` has passed.
+/// Reads distances from an array. It is a metric if `check_distances` has accepted the array.
 template <class Number>
 class ArrayMetric {
  public:
@@ -74,8 +74,8 @@ class ArrayMetric {
 };
 
 /// Checks all numbers once. Like the readers of ph::io, it treats deviations below 1e-6 of the
-/// largest distance as rounding: a negative number, a difference between the two numbers of a pair,
-/// a diagonal.
+/// largest distance as rounding. Deviations are negative numbers, differences between the two
+/// numbers of a pair, and numbers on the diagonal other than 0.
 /// @throws Error (bad_data) that names row and column; Error (cancelled).
 template <class Number>
 void check_distances(const DistanceArray& array, const RunContext& context);

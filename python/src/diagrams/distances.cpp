@@ -68,7 +68,8 @@ py::tuple distance(const py::buffer& a, const py::buffer& b, const DiagramMetric
   return py::make_tuple(bounds.value, bounds.lower);
 }
 
-/// Each bar is in one pair, with the diagonal if necessary. -1 is the diagonal, and comes last.
+/// Completes a matching: each bar is in one pair, with the diagonal if necessary. The index -1
+/// stands for the diagonal, and comes last.
 std::vector<std::pair<std::int64_t, std::int64_t>> with_diagonal(const BottleneckMatching& matching,
                                                                  std::size_t count_a,
                                                                  std::size_t count_b) {
@@ -85,7 +86,8 @@ std::vector<std::pair<std::int64_t, std::int64_t>> with_diagonal(const Bottlenec
   return pairs;
 }
 
-/// Value, lower bound, pairs. No pairs if the distance is infinite.
+/// Returns the distance, a lower bound of it, and the pairs. There are no pairs if the distance is
+/// infinite.
 py::tuple matching(const py::buffer& a, const py::buffer& b, const DiagramMetric& metric,
                    const RunOptions& options) {
   const std::vector<Bar> bars_of_a = bars_of(a), bars_of_b = bars_of(b);
@@ -137,7 +139,8 @@ Block distances(const std::vector<py::buffer>& diagrams,
                    {size, size});
 }
 
-/// Rows birth, death; root mean square; rounds; true if it converged.
+/// Returns the barycentre as rows birth, death; the root mean square; the number of rounds; and
+/// true if the search converged.
 py::tuple barycentre_of(const std::vector<py::buffer>& diagrams, int most_rounds, double least_gain,
                         const RunOptions& options) {
   const Diagrams given(diagrams);

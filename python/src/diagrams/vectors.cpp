@@ -148,7 +148,7 @@ Atol::Contrast contrast_of(const std::string& word) {
   return word == "gauss" ? Atol::Contrast::gauss : Atol::Contrast::laplace;
 }
 
-/// Centres, rows birth, death; widths.
+/// Returns the centres, as rows birth, death, and their widths.
 std::pair<Block, Block> fitted_atol(const std::vector<py::buffer>& diagrams, std::size_t centres,
                                     std::uint64_t seed, int most_rounds,
                                     const RunOptions& options) {

@@ -11,7 +11,8 @@
 namespace ph::python {
 namespace {
 
-/// While it lives, a context is stopped by the stop of another context, and reports to it.
+/// While this object lives, a stop of another context also stops this context, and progress of this
+/// context is reported to the other one.
 class Watched {
  public:
   Watched(RunContext& context, const RunContext& call) : context_(context) {
@@ -56,7 +57,8 @@ RunningLoops::RunningLoops(HeldPart& held, std::int64_t field, const RunOptions&
   });
 }
 
-/// Calls that read the loops, without the GIL, because the owner of the lock may need it.
+/// Runs a call that reads the loops. It waits for the lock without the GIL, because the owner of
+/// the lock may need the GIL.
 template <class Use>
 auto RunningLoops::locked(Use&& use) {
   const py::gil_scoped_release no_gil;
@@ -64,7 +66,7 @@ auto RunningLoops::locked(Use&& use) {
   return use();
 }
 
-/// Calls that change the loops. Precondition: the lock is held.
+/// Runs a call that changes the loops. Precondition: the lock is held.
 template <class Use>
 auto RunningLoops::changed(const RunContext& call, Use&& use) {
   const Watched watched(context_, call);

@@ -29,8 +29,8 @@ struct HeldPart {
   ImagePart part;
 };
 
-/// ImageLoops with its own budget; each call may stop it. Calls from several threads run one after
-/// another. After a call failed, the state is lost, and calls that need it fail.
+/// ImageLoops with a budget of its own. Each call can be stopped. Calls from several threads run
+/// one after another. After a call has failed, the state is lost, and all calls that need it fail.
 class RunningLoops {
  public:
   /// Takes the voxels. Needs the GIL, as does the destructor.

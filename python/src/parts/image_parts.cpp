@@ -56,7 +56,8 @@ ImagePart whole_of(std::span<const std::byte> bytes, const RunContext& context) 
   return part;
 }
 
-/// @param loops the bars of all parts that the joined parts lack.
+/// @param loops the results of ImageLoops for each part: the bars that joining the parts does not
+/// yield.
 Bars image_part_bars(const py::bytes& bytes, const std::vector<const Bars*>& loops,
                      std::int64_t field, const RunOptions& options) {
   const auto view = view_of(bytes);

@@ -14,7 +14,8 @@ namespace ph::python {
 /// @param places ascending. @throws Error (usage) on an index out of range.
 Bars selected(const Bars& bars, const std::vector<std::int64_t>& places);
 
-/// Converts a barcode without its facts to a dictionary of arrays and plain values, and back.
+/// Converts a barcode, without the facts about its computation, to a dictionary of arrays and plain
+/// values, and back.
 /// @throws Error (bad_data) on an invalid state.
 pybind11::dict state_of(const Bars& bars);
 Bars bars_of_state(const pybind11::dict& state);

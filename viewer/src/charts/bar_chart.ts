@@ -18,7 +18,7 @@ export function nameOfBar(session: Session, bar: number): string {
 export abstract class BarChart extends Chart {
   private current = -1; // index among the shown bars, by persistence
 
-  /// The bars of the shown dimensions, the most persistent first.
+  /// y of the upper end of its row
   protected shownBars(most: number): Uint32Array {
     const { bars } = this.session.report,
       hidden = this.session.hiddenDims.size > 0;

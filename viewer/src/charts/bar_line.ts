@@ -21,7 +21,8 @@ export function thicknessOf(row: number): number {
 function arrowOf({ row }: Item): number {
   return Math.min(5, Math.max(2.5, row / 2));
 }
-/// The length that a bar extends beyond its end: an arrow, if it never ends.
+/// The distance that a bar extends beyond its end: the length of an arrow if the bar never ends,
+/// otherwise 0.
 export function reachOf(item: Item): number {
   return item.endless ? 1.6 * arrowOf(item) : 0;
 }
@@ -57,7 +58,7 @@ export function closeTogether(items: Item[]): Item[][] {
   return groups;
 }
 
-/// "2, 3, 4" or, with less room, "2, 3, …". @param room for the text, in letters.
+/// "2, 3, 4" or, with less room, "2, 3, …". @param room the number of letters that fit.
 export function asManyAsFit(numbers: number[], room: number): string {
   for (let count = numbers.length; count > 0; --count) {
     const text = [...numbers.slice(0, count), ...(count < numbers.length ? ["…"] : [])].join(", ");

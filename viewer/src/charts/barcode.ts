@@ -43,7 +43,7 @@ export class Barcode extends BarChart {
   private items: Item[] = [];
   private rowsFor: Map<number, string> | undefined; // bars that must have a row
   private axes: Axis[] = [];
-  private readonly right: number; // room for arrows, and for numbers if bars have them
+  private readonly right: number; // Room for arrows and, if bars have numbers, for these numbers.
 
   constructor(session: Session) {
     super(session, "barcode", "Barcode", "");
@@ -122,9 +122,9 @@ export class Barcode extends BarChart {
       if (colour) drawLine(pen, item, Math.max(1.5, thicknessOf(item.row)), colour);
     }
   }
-  /// Draws the numbers of bars; this follows all bars, so that no bar covers a number. Neighbouring
-  /// bars whose rows are lower than a number share one text, at the end of the longest of these
-  /// bars.
+  /// Draws the numbers of bars. All bars must be drawn before, so that no bar covers a number. If
+  /// neighbouring rows are lower than a number, their bars share one text, which stands at the end
+  /// of the longest of these bars.
   private drawNumbers(pen: Pen): void {
     const numbers = this.session.numbers();
     const numbered = this.items.filter((item) => numbers.has(item.bar));
@@ -158,8 +158,8 @@ export class Barcode extends BarChart {
     const dims = this.session.dimsInOrder().filter((dim) => !this.session.hiddenDims.has(dim));
     if (dims.length === 0) return;
     const room = bottom - top - kGap * dims.length;
-    // If the finding is not about components, their bars leave the room to other dimensions, except
-    // for coloured bars.
+    // If the finding is not about components, their bars make room for other dimensions; only
+    // coloured bars of components keep their rows.
     const few = this.session.finding.dim !== 0;
     const tinted = 2 * this.session.tintedBars().size;
     const counts = dims.map((dim) => Math.max(...meta.barcodes.map((_, i) => bars.count(dim, i))));
@@ -199,7 +199,7 @@ export class Barcode extends BarChart {
     };
   }
 
-  /// Bars of segments always have a row, however many other bars are as long.
+  /// Bars of segments always have a row, even if many other bars are as long.
   private wanted(dim: number, barcode: number): number[] {
     return dim === 0 && barcode === 0 ? [...this.session.tintedBars().keys()] : [];
   }

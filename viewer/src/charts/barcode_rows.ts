@@ -5,7 +5,7 @@ import { kRowOfFew } from "./bar_line";
 export const kStrip = 12; // height of the strip for bars without a row
 const kLeastRow = 2.5,
   kMostRow = 14,
-  kFewBars = 6; // bars of a dimension that keeps higher rows when others are thin
+  kFewBars = 6; // most bars of a dimension whose rows stay higher when others are thin
 
 /// The number of rows that fill the room.
 export function rowsIn(room: number): number {
@@ -35,8 +35,8 @@ export function layOut(
   return even.row >= kRowOfFew || needed > room / 2 ? even : share(isFew, needed);
 }
 
-/// The bars that get a row: `bars`, of which the last ones are replaced by at most `most` of the
-/// `wanted` bars that are missing.
+/// The bars that get a row: `bars`, except that at most `most` of the `wanted` bars that are
+/// missing from it replace its last ones.
 export function withRows(bars: Uint32Array, wanted: number[], most: number): Uint32Array {
   const present = new Set(bars),
     wants = new Set(wanted);

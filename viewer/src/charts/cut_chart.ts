@@ -157,7 +157,8 @@ export class CutChart extends Chart {
       ...(this.suggested === undefined || this.suggested === own ? [] : [to("widest gap", this.suggested)]),
     ];
   }
-  /// The steps of the program's answer beyond a cut of the tree; empty if there are none.
+  /// Names the steps of the program's answer that a cut of the tree does not include; empty if
+  /// there are none.
   private note(): string {
     const { meta } = this.session.report;
     const { min_seam = 0, objects = false } = meta.scene ?? {};

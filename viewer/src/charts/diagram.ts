@@ -115,8 +115,8 @@ export class Diagram extends BarChart {
     }
   }
 
-  /// Equal bars are drawn side by side, bars of segments in the order of their numbers. Near the
-  /// diagonal, where nobody looks for single bars, they overlap.
+  /// Draws equal bars side by side, and bars of segments in the order of their numbers. Near the
+  /// diagonal, where nobody looks for single bars, equal bars overlap.
   private fan(marked: Uint32Array): Crowd[] {
     const { session } = this;
     const { bars } = session.report;

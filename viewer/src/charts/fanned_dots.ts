@@ -35,7 +35,7 @@ export function fanOut(
     if (onLine(first)) {
       // All dots, or the numbered dots with the others stacked behind them.
       const apart = group.length <= kMostOnLine ? group : group.filter(isNumbered);
-      // Towards the side with more room.
+      // The dots extend towards the side with more room.
       const side = right - at.x >= at.x - left ? 1 : -1;
       const pitch = Math.min(kPitch, (side > 0 ? right - at.x : at.x - left) / apart.length);
       apart.forEach((bar, k) => (x[bar] = at.x + side * k * pitch));

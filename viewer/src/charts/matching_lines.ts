@@ -31,7 +31,8 @@ export function drawMatching(
     if (!session.isShown(bar) || (partner !== undefined && partner < bar)) continue;
     pairs.push({ bar, partner, move: Matching.move(bars, bar, partner) });
   }
-  if (pairs.length > kMostDrawn) pairs.sort((a, b) => (a.move > b.move ? -1 : 1)); // Infinity - Infinity is NaN
+  // Not a.move - b.move: Infinity - Infinity is NaN.
+  if (pairs.length > kMostDrawn) pairs.sort((a, b) => (a.move > b.move ? -1 : 1));
   const shown = pairs.slice(0, kMostDrawn);
   for (const { bar, partner } of shown) {
     if (partner !== undefined)

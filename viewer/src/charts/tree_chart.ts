@@ -42,8 +42,9 @@ export class TreeChart extends Chart {
     const { tree } = this;
     const level = Float64Array.from({ length: tree.leaves }, (_, b) => tree.level(b));
     const size = tree.sizes();
-    // Of two branches with equal levels, the larger one or, if they are equally large, the one that
-    // dies later comes first; then a branch always follows the branch that it merges into.
+    // The largest level comes first. Among equal levels, the larger branch comes first; among
+    // equally large branches, the one that dies later. In this order, a branch always follows the
+    // branch that it merges into.
     this.byLevel = new Uint32Array(tree.leaves)
       .map((_, i) => i)
       .sort((a, b) =>
@@ -110,7 +111,7 @@ export class TreeChart extends Chart {
     return merge !== kNone && this.tree.isDone(merge, this.session.cutValue);
   }
 
-  /// Numbers follow the selection if only selected items have one.
+  /// If only selected items have numbers, the numbers change with the selection.
   private drawNumbers(pen: Pen): void {
     const numbers = this.session.numbers(),
       labelPlaces = new LabelPlaces();
@@ -213,7 +214,7 @@ export class TreeChart extends Chart {
     });
     return { axis, ticks };
   }
-  /// The trunks of the largest trees, and the most persistent of all other branches.
+  /// The trunks of the largest trees, and of all other branches the most persistent ones.
   private prominent(most: number): number[] {
     const { tree, byLevel } = this;
     let roots = 0;

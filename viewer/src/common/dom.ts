@@ -83,8 +83,8 @@ export function isOfBrowser({ ctrlKey, altKey, metaKey }: KeyboardEvent): boolea
   return ctrlKey || altKey || metaKey;
 }
 
-/// Calls back when the size of an element changes, or when the ratio of screen pixels to page
-/// pixels does: another monitor, another zoom.
+/// Calls `changed` when the size of an element changes, or when the number of screen pixels per
+/// page pixel changes, as on another monitor or after a zoom.
 export function onResize(element: Element, changed: () => void): void {
   let last = "";
   const look = () => {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Finds pairs of points that are near each other, and the triangles that edges form.
 
-/// Pairs i < j of points, given as x, y, z of each, at a distance of at most `r`, as one flat list;
-/// nothing if there are more than `most`.
+/// The pairs i < j of points at a distance of at most `r`, as one flat list; undefined if there are
+/// more than `most` pairs. @param p x, y, z of each point.
 function pairsWithin(p: Float32Array, r: number, most: number): number[] | undefined {
   const cubes = cubesOf(p, r);
   const pairs: number[] = [];
@@ -21,7 +21,7 @@ function pairsWithin(p: Float32Array, r: number, most: number): number[] | undef
 
 interface Cube {
   points: number[];
-  next: number[]; // names of the neighbouring cubes that come after it
+  next: number[]; // names of the neighbouring cubes that come after this cube
 }
 
 function cubesOf(p: Float32Array, r: number): Map<number, Cube> {
@@ -63,11 +63,11 @@ function distance(p: Float32Array, i: number, j: number): number {
 export interface SortedPairs {
   ends: Uint32Array; // two numbers per pair
   values: Float32Array | Float64Array; // ascending
-  missingFrom: number; // pairs from this value on may be missing
+  missingFrom: number; // pairs at or above this value may be missing
 }
 
-/// The shortest pairs up to a distance of `limit`, at most `most`, as far as a few guesses of the
-/// radius find them.
+/// The shortest pairs up to a distance of `limit`, at most `most` of them. A few guesses determine
+/// the radius of the search, so a few pairs fewer may be found.
 export function shortestPairs(p: Float32Array, limit: number, most: number): SortedPairs {
   let best: number[] = [],
     reach = 0,

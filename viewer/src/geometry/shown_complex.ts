@@ -11,10 +11,10 @@ const kMostEdges = 40_000,
   kMostPoints = 50_000;
 
 export interface ShownPart {
-  ends: Uint32Array; // places in the picture, two per edge
+  ends: Uint32Array; // indices of shown points, two per edge
   corners: Uint32Array | undefined; // three per triangle; undefined: too many to draw
-  moreEdges: boolean; // more cells than the budget allows
-  moreTriangles: boolean; // more cells than the report has
+  moreEdges: boolean; // true if the complex may have more edges at this value
+  moreTriangles: boolean; // true if it may have more triangles
 }
 
 export class ShownComplex {
@@ -84,7 +84,8 @@ export class ShownComplex {
   private written(): SortedPairs {
     const { edges, meta } = this.report;
     const ends = this.elementsOf(edges!.ends);
-    for (let i = 0; i < ends.length; i += 2) ends.subarray(i, i + 2).sort(); // for triangles
+    // The order i < j that trianglesOf expects.
+    for (let i = 0; i < ends.length; i += 2) ends.subarray(i, i + 2).sort();
     return {
       ends,
       values: Float64Array.from(edges!.values),

@@ -74,8 +74,8 @@ export class Bars {
   of(dim: number, barcode: number): Uint32Array {
     return this.groups[barcode]?.get(dim) ?? new Uint32Array();
   }
-  /// The first `most` of bars that are sorted by persistence. Infinite bars take more than half of
-  /// these places only if there are too few finite bars.
+  /// The first `most` of bars that are sorted by persistence. Infinite bars get more than half of
+  /// these places only if there are too few finite bars to fill the rest.
   prominent(sorted: Uint32Array, most: number): Uint32Array {
     let infinite = 0;
     while (infinite < sorted.length && this.isInfinite(sorted[infinite]!)) ++infinite;
@@ -85,7 +85,8 @@ export class Bars {
     result.set(sorted.subarray(infinite, infinite + result.length - kept), kept);
     return result;
   }
-  /// The count of numbers that name a cell, of the dimension of a bar or of the next dimension.
+  /// The number of integers that name a cell, which has the dimension of a bar (`above` 0) or the
+  /// next dimension (`above` 1).
   arity(bar: number, above: 0 | 1): number {
     const kind = this.meta[this.barcodeOf(bar)]?.cells ?? "vertices";
     if (kind === "row") return 1;
@@ -169,7 +170,7 @@ function decreasing(values: Float64Array): Uint32Array {
 /// Most runs are pairs: sort short ones by insertion.
 function sortRun(order: Uint32Array, from: number, to: number, values: Float64Array): void {
   if (to - from > 16) {
-    // Infinity - Infinity is NaN: compare instead of subtracting.
+    // Compares instead of subtracting, because Infinity - Infinity is NaN.
     order
       .subarray(from, to)
       .sort((a, b) => (values[a]! > values[b]! ? -1 : values[a]! < values[b]! ? 1 : a - b));

@@ -8,7 +8,7 @@ function quoted(word: string): string {
   return /^[A-Za-z0-9_@%+=:,./-]+$/.test(word) ? word : `'${word.replace(/'/g, `'\\''`)}'`;
 }
 
-/// The command line that wrote the report or, at another cut, the one that makes this cut.
+/// The command line that wrote the report; at another cut, the command line that makes this cut.
 export function commandLine(session: Session): string {
   const { tree, provenance } = session.report.meta;
   const words =

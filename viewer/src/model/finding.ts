@@ -13,7 +13,7 @@ export interface Finding {
   dim: number; // dimension of the bars that stand out, or of the longest one; -1 if there is none
   bars: number[]; // bars that stand out, the most persistent first; selected at the start
   sentence: string;
-  components: boolean; // true if the sentence, the cut and the merge tree show them
+  components: boolean; // true if the sentence, the cut and the merge tree are about components
 }
 
 /// The gap between the longest bars of a dimension and the others.
@@ -23,18 +23,21 @@ export interface Gap {
 }
 
 const kLeastRatio = 2, // ratio of a gap that makes bars stand out
-  kWideAmongFew = 4, // ratio of a gap that separates so few bars that all may stand out
-  kLeastAlone = 1 / 3, // share of the longest bar of H1 and higher that lone bars must reach
+  kWideAmongFew = 4, // the same, if so few bars are above the gap that it may include all bars
+  // Least length of a bar that is alone in its dimension, as a share of the longest bar of H1 and
+  // higher.
+  kLeastAlone = 1 / 3,
   kHardly = 1.05,
   kMostKnown = 4 * kMostAbove, // number of bars of a dimension that are examined
   kMostSelected = 1000,
   kFew = 4; // number of bars; among so few, wide gaps occur by chance
 
-/// The widest gap, as a ratio, between neighbours of finite lengths > 0 in descending order.
-/// Lengths below a tenth of the first, and all after the 64th, cannot be its upper end.
-/// @param alike this many lengths form a gap by themselves if nothing is below them and no gap
-/// among them is much wider than chance.
-/// @param least this many of the lengths cannot be the lower end of a gap.
+/// The widest gap, as a ratio, between neighbours in a descending list of finite lengths > 0.
+/// Lengths below a tenth of the first, and all lengths after the 64th, cannot be the upper end of a
+/// gap.
+/// @param alike the most lengths that may all lie above the gap, with nothing below it; this is the
+/// result unless a gap among them is much wider than chance.
+/// @param least the fewest lengths that may lie above the gap.
 export function widestGap(lengths: ArrayLike<number>, alike = kFew, least = 1): Gap {
   const gap: Gap = { count: 0, ratio: 1 };
   const apart = lengths.length <= alike ? kWideAmongFew : kLeastRatio;
@@ -52,14 +55,15 @@ export function widestGap(lengths: ArrayLike<number>, alike = kFew, least = 1): 
 interface Lengths {
   dim: number;
   endless: number[]; // the bars of infinite length
-  reach: number; // the longest of all; infinite bars count up to the end of the values
+  reach: number; // the longest length; infinite bars count up to the end of the values
   isEndless: boolean; // true if a bar never ends; infinite bars may also have no beginning
   finite: number[]; // finite bars, the longest first
   lengths: number[]; // their lengths; for a bar that is alive at the threshold, its known part
-  alive: number; // this many of `finite`, the first ones, are alive at the threshold
+  alive: number; // the first `alive` bars of `finite` are alive at the threshold
 }
 
-/// @param threshold at which the complex was cut: bars alive there are at least this long.
+/// @param threshold the value at which the complex was cut off. A bar that is alive there is at
+/// least as long as its known part.
 function lengthsOf(bars: Bars, dim: number, threshold: number | undefined): Lengths {
   const result: Lengths = {
     dim,

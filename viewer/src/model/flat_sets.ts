@@ -34,7 +34,8 @@ export class FlatSets {
     const planes = this.flat?.planes ?? 0;
     for (let p = 0; p < planes; ++p) this.on[to * planes + p]! += this.on[from * planes + p]!;
   }
-  /// The surface that a set with this many vertices is; 0 if it is none.
+  /// The number of the surface that a set is; 0 if the set is not a surface. @param vertices the
+  /// number of vertices of the set.
   surfaceOf(root: number, vertices: number): number {
     const { flat } = this;
     for (let p = 0; p < (flat?.planes ?? 0); ++p)

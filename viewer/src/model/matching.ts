@@ -18,7 +18,7 @@ export class Matching {
   partnerOf(bar: number): number | undefined {
     return this.partners.get(bar);
   }
-  /// The distance that the farther end of a bar moves.
+  /// The distance that a bar moves: the larger of the distances of its two ends.
   static move(bars: Bars, bar: number, partner: number | undefined): number {
     if (partner === undefined) return bars.persistence(bar) / 2;
     const apart = (a: number, b: number) => (a === b ? 0 : Math.abs(a - b));

@@ -9,8 +9,9 @@ import { DisjointSets, numbered } from "./disjoint_sets";
 import { FlatSets, type FlatLeaves } from "./flat_sets";
 import { kNone, PayloadError, type Numbers } from "./payload";
 
-/// The rule for doing a merge. `persistence`: its level (its persistence) is below the cut;
-/// `value`: its level (its value) is at most the cut.
+/// The rule for doing a merge at a cut. `persistence`: the merge is done if its level, which is its
+/// persistence, is below the cut. `value`: it is done if its level, which is its value, is at most
+/// the cut.
 export type CutRule = "persistence" | "value";
 
 /// The label and the surface of each leaf; 0: none.

@@ -31,7 +31,8 @@ export interface SegmentMeta {
   number: number; // the number that names the segment in the files of the program
   colour: string; // "#rrggbb"
   persistence: number | null; // null: infinite
-  role: "object" | "unknown" | "support" | "wall"; // the last two: from earlier frames only
+  // The last two are known only from earlier frames.
+  role: "object" | "unknown" | "support" | "wall";
   on_surface?: number;
   on_segment?: number; // the number of the segment that it stands on
 }

@@ -27,7 +27,7 @@ export interface Block {
 export interface Payload {
   meta: unknown;
   blocks: Map<string, Block>;
-  /// Bytes of base64 text, for the figures that the page states about itself.
+  /// The length of the base64 text in bytes, one of the figures that the page states about itself.
   bytes: number;
 }
 
@@ -57,7 +57,7 @@ export async function readPayload(page: Document): Promise<Payload> {
       const text = (element.textContent ?? "").trim();
       bytes += text.length;
       blocks.set(name, await readBlock(name, element.dataset, text));
-      element.remove(); // the text is as large as the numbers are
+      element.remove(); // frees the text, which is as large as the numbers
     }),
   );
   return { meta, blocks, bytes };

@@ -103,7 +103,7 @@ export class Session {
     for (const listener of this.listeners) listener(changes);
     if (changes.has("cut")) this.shown(this.cutMilliseconds + performance.now() - start);
   }
-  /// Receives the time from a cut until every view was notified.
+  /// Calls `listener` with the time from a change of the cut until every view was notified.
   onShown(listener: (milliseconds: number) => void): void {
     this.shown = listener;
   }
@@ -167,7 +167,8 @@ export class Session {
   saidOf(label: number): SegmentMeta | undefined {
     return this.isAnswer ? this.report.meta.scene!.segments[label - 1] : undefined;
   }
-  /// The name of a segment: as in the files that the program wrote, or by its size.
+  /// The number that names a segment: the number in the files that the program wrote, otherwise the
+  /// label.
   numberOf(label: number): number {
     return this.saidOf(label)?.number ?? label;
   }
@@ -326,7 +327,7 @@ export class Session {
     return !this.hiddenDims.has(this.report.bars.dim[bar]!);
   }
 
-  /// The dimension that the finding is about, then the others, the highest first.
+  /// All dimensions: the one that the finding is about, then the others in descending order.
   dimsInOrder(): number[] {
     const { dims } = this.report.bars,
       { dim } = this.finding;

@@ -49,7 +49,8 @@ export function addressOf(session: Session, data: DataView | undefined): string 
   return [...parts].map(([name, value]) => `${name}=${value}`).join("&");
 }
 
-/// State that is not named takes its default; unknown parts are ignored.
+/// Restores the state that an address describes. State that the address does not name takes its
+/// default; unknown parts of the address are ignored.
 export function goTo(address: string, session: Session, data: DataView | undefined): void {
   const { report } = session;
   const parts = new Map(

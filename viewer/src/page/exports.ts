@@ -131,7 +131,8 @@ export function selectionJson(session: Session): string {
   const { chains, meta } = report;
   const { input, complex, field, max_dim, threshold, filtration, engine, timings, peak_memory } =
     meta.provenance;
-  const isComputed = complex !== undefined && field !== undefined; // else the program writes neither
+  // Otherwise the program writes neither.
+  const isComputed = complex !== undefined && field !== undefined;
   const selected = selectedOrShown(session);
   const allHaveChains = selected.length > 0 && selected.every((bar) => chains?.ofBar.has(bar));
   return (

@@ -5,7 +5,7 @@ import { button } from "../common/dom";
 import type { Session } from "../model/session";
 
 /// Adds the button that folds and opens a panel. @param folded true if the panel starts folded.
-/// @return a function that opens the panel, unless the reader has decided.
+/// @return a function that opens the panel, unless the reader has already used the button.
 export function foldable(panel: HTMLElement, title: string, folded: boolean): () => void {
   let isDecided = false;
   const act = () => {
@@ -26,8 +26,9 @@ export function foldable(panel: HTMLElement, title: string, folded: boolean): ()
   };
 }
 
-/// True if the cut of the tree is informative: components stand out, or different cuts have
-/// different numbers of segments and the page shows several colours of segments or no data.
+/// True if the cut of the tree is informative. It is if components stand out. Otherwise different
+/// cuts must have different numbers of segments, and the page must show several colours of segments
+/// or no data.
 /// @param counts numbers of segments at cuts along the slider.
 export function cutSays(session: Session, counts: number[]): boolean {
   const { tree } = session.report;

@@ -18,7 +18,7 @@ function packed([r, g, b]: Rgb): number {
   return (0xff000000 | (b << 16) | (g << 8) | r) >>> 0;
 }
 
-/// Mixes `part` of 256 parts of one colour with the rest of another.
+/// Mixes two colours: `part` 256ths of the one, and the rest of the other.
 function mixed(a: number, b: number, part: number): number {
   const channel = (shift: number) =>
     ((((a >>> shift) & 255) * part + ((b >>> shift) & 255) * (256 - part)) >> 8) << shift;
@@ -51,7 +51,8 @@ export class Colouring {
     return range;
   }
 
-  /// @return true if any colour may have changed, because a pointer moves much inside one segment.
+  /// Updates the colours. @return true if any colour may have changed; while a pointer moves inside
+  /// one segment, none changes.
   update(mode: ColourMode = this.session.colour): boolean {
     const { session } = this;
     this.mode = mode;
@@ -199,8 +200,8 @@ export class Colouring {
   }
 
   private shades: Uint8Array | undefined;
-  /// Adds a quarter of the camera's brightness, or of the image, so that a segment does not look
-  /// flat.
+  /// The brightness that the camera or the image shows, a quarter of which is added to the colours
+  /// so that a segment does not look flat; undefined if there is neither.
   private grey(): Uint8Array | undefined {
     const { elements, image } = this.session.report;
     const { rgb, count } = elements!;

@@ -12,7 +12,8 @@ import type { Stage } from "./stage";
 
 const kPatience = 60, // milliseconds of waiting after the last change
   kSize = 12, // text size in pixels
-  kBehind = 1.02, // a place is hidden if it is more than this factor farther than the nearest point
+  // A place is hidden if its distance exceeds that of the nearest point by this factor.
+  kBehind = 1.02,
   kPlaces = 48; // candidate places of a segment, for when its middle is hidden
 
 type Place = [number, number, number];

@@ -184,7 +184,7 @@ export class Legend {
     };
     if (shown.some((bar) => isWholeMesh(session.report, bar)))
       note("The cycle of this bar is the whole mesh.");
-    // One or two cells show where a bar begins and ends, but not its hole.
+    // The one or two cells that are drawn show where a bar begins and ends, but not its hole.
     const isAsked = meta.barcodes[0]!.representatives !== undefined;
     if (!isAsked && shown.some((bar) => bars.dim[bar] !== 0 || !tree))
       note(noteOf(shown.length, session.report.image ? "voxels" : "cycles"));
@@ -194,9 +194,9 @@ export class Legend {
 
 const kSteps = 50;
 
-/// Draws from the colour of the largest value, at the top, to that of the least one. Each colour
-/// extends to the end, and the next is drawn over it, because colours that only touch would leave
-/// stripes where they meet within a pixel.
+/// Draws the steps of a colour scale, from the colour of the largest value, at the top, to the
+/// colour of the least value. Each colour extends to the lower end, and the next one is drawn over
+/// it, because colours that only touch would leave stripes where they meet within a pixel.
 function steps(map: (part: number) => Rgb): SVGElement[] {
   return Array.from({ length: kSteps }, (_, i) => {
     const y = (100 * i) / kSteps;

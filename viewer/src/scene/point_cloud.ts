@@ -18,7 +18,7 @@ import type { Stage } from "./stage";
 
 const kReach = 6, // distance in pixels at which the pointer finds a point
   kCell = 6,
-  kSurface = 3000, // number of points; fewer do not form a surface
+  kSurface = 3000, // least number of points that form a surface
   kCover = 1.5; // spacings that a mark covers, so that neighbours in any direction touch
 
 const kVertex = `
@@ -194,7 +194,7 @@ export class PointCloud {
       const which = cell < 0 ? -1 : cells[cell]!;
       if (which >= 0 && w < depths[which]!) depths[which] = w;
     }
-    // Pixels in one cell.
+    // Pixels in one cell share its depth.
     return depths.map((depth, i) => (place[i]! < 0 ? depth : depths[cells[place[i]!]!]!));
   }
 }
