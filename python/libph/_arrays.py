@@ -179,8 +179,8 @@ def as_float64(array: NDArray[Any], name: str, mask: NDArray[np.bool_] | None = 
 
 
 def new_array(shape: int | tuple[int, ...]) -> NDArray[np.float64]:
-    """An array of float64 to be filled in. Refused if it does not fit into memory, because the
-    system would promise the memory anyway."""
+    """A new array of float64 to be filled in. An array that does not fit into memory is refused,
+    because the system would promise the memory anyway."""
     needed = math.prod(shape if isinstance(shape, tuple) else (shape,)) * 8
     if needed > _LARGE and needed > _core.memory_left():
         raise MemoryLimitError(f"found a result of shape {shape}, whose {needed} bytes would exceed "
@@ -195,8 +195,8 @@ def side_by_side(array: NDArray[Any], name: str) -> NDArray[Any]:
 
 
 def _copied(array: NDArray[Any], dtype: DTypeLike, name: str) -> NDArray[Any]:
-    """A copy of another type, in C order. A copy that is too large is refused in advance, because
-    the system promises more memory than it has."""
+    """A copy of another type, in C order. A copy that does not fit into memory is refused in
+    advance, because the system promises more memory than it has."""
     needed = array.size * np.dtype(dtype).itemsize
     if needed > _LARGE and needed > _core.memory_left():
         raise MemoryLimitError(f"{name}: found {array.size} numbers of type {array.dtype}, whose "
@@ -284,7 +284,8 @@ def as_integers(data: Any, name: str) -> NDArray[np.int64]:
 
 
 def is_mapped_file(array: NDArray[Any]) -> bool:
-    """True if the array is a file mapped read-only, whose pages may leave the memory meanwhile."""
+    """True if the array is a file that is mapped read-only, whose pages the system may drop from
+    memory."""
     if not isinstance(array, np.memmap) or array.mode != "r":
         return False
     import mmap

@@ -62,7 +62,7 @@ Barcode(rips of 2 points in R^1, field 2: 2 bars of H0)]
 
 def computed(function: Callable[..., Barcode], inputs: Iterable[Any], options: dict[str, Any],
              what: str) -> list[Barcode]:
-    """`what` is the word for an input in messages."""
+    """The barcodes that `batch` returns. `what` is the word for an input in messages."""
     if function not in _REQUESTS:
         raise _options.refuse("function", function, "rips, alpha, cubical, lower_star, filtered or "
                               "boundary of libph")
@@ -81,7 +81,8 @@ def computed(function: Callable[..., Barcode], inputs: Iterable[Any], options: d
         return []
     try:
         bars = _run.run(_core.barcodes, [r.recipe for r in requests],
-                        [r.task for r in requests if r.task is not None],  # each has one
+                        # Every request has a task.
+                        [r.task for r in requests if r.task is not None],
                         options=run, slab_layers=requests[0].slab_layers)
     except Cancelled:
         raise
@@ -102,7 +103,8 @@ def _parameters(function: Callable[..., Barcode]) -> tuple[dict[str, Any], dict[
 
 
 def _arguments(given: Any, places: dict[str, Any], keywords: dict[str, Any]) -> dict[str, Any]:
-    """All data that make up a request."""
+    """All arguments of a request: the data in `given`, the keywords, and defaults for the
+    others."""
     values = (given,) if len(places) == 1 else given
     needed = sum(default is inspect.Parameter.empty for default in places.values())
     if not isinstance(values, tuple) or not needed <= len(values) <= len(places):

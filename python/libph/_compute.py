@@ -84,8 +84,8 @@ def rips(X: Any, *, max_dim: int | None = 1, min_dim: int = 0, threshold: float 
     representatives : {None, "cycles", "cocycles"}
         The kind of chains to compute with the bars; see `Barcode.representative`.
     loops : {None, "tight", "plain", "none"}
-        How cycles of H1 are split into loops. Default: "tight", which makes loops as short as is
-        cheap.
+        How cycles of H1 are split into loops. Default: "tight", which shortens loops as far as
+        this takes little time.
     min_persistence : float
         Bars with death - birth <= this value are left out. A negative value keeps all bars.
     cells : bool
@@ -265,7 +265,7 @@ def cubical(image: Any, *, construction: str = "vertices", superlevel: bool = Fa
     >>> list(ph.cubical(ring))
     [Bar(dim=0, birth=1.0, death=inf), Bar(dim=1, birth=1.0, death=7.0)]
 
-    Two bright spots in a row of pixels, of values 8 and 5, and a gap of 2 between them:
+    A row of pixels with two bright spots, of values 8 and 5, and a gap of value 2 between them:
 
     >>> ph.cubical([0, 8, 2, 5, 0], superlevel=True).dgm(0)
     array([[-8., inf],

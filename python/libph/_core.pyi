@@ -10,7 +10,7 @@ class _Metaclass(type): ...
 
 class _Object(metaclass=_Metaclass):
     """The base class of all pybind11 classes."""
-    # Raises TypeError for classes without a constructor: functions create their objects.
+    # Raises TypeError for classes without a constructor, whose objects only functions create.
     def __init__(self, *args: Any, **kwargs: Any) -> None: ...
 
 version: str

@@ -18,8 +18,8 @@ class Error(Exception):
     ----------
     remedies : tuple of (str, str)
         Keywords that the hint names, each with a value: ``("nan", "drop")``. The value is empty if
-        several values help. The keywords of a `MemoryLimitError` must be set together: they are the
-        first of the solutions that the message names.
+        several values help. The keywords of a `MemoryLimitError` are the first of the solutions
+        that the message names, and must be set together.
     """
 
     remedies: tuple[tuple[str, str], ...] = ()

@@ -162,7 +162,7 @@ def _is_barcode(path: bytes) -> bool:
     try:
         with open(path, "rb") as file:
             start = file.read(32)
-    except OSError:  # the reader will report the problem
+    except OSError:  # the reader will report the problem with the file
         return False
     return start.startswith((b"dim,birth,death\n", b'{\n  "format": "ph-barcode"'))
 

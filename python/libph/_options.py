@@ -40,7 +40,7 @@ def whole(name: str, value: Any, least: int, most: int = 2**63 - 1) -> int:
         number = least - 1
     if not least <= number <= most:
         bounds = f", at least {least}" if most == 2**63 - 1 else f", {least} to {most}"
-        if least <= -2**31:  # equivalent to None
+        if least <= -2**31:  # so low a bound means that there is none
             bounds = "" if most == 2**63 - 1 else f", at most {most}"
         raise refuse(name, value, f"a whole number{bounds}")
     return number

@@ -124,7 +124,8 @@ def delay_embedding(series: ArrayLike, dimension: int, delay: int = 1, *,
     of_points = np.lib.stride_tricks.sliding_window_view(values, span, axis=0)[..., ::delay]
     if values.ndim == 2:  # quantities before times
         of_points = np.swapaxes(of_points, 1, 2)
-        if delay > 1 or not values.flags.c_contiguous:  # rows are not a view of the series
+        # In these cases the rows cannot be a view of the series.
+        if delay > 1 or not values.flags.c_contiguous:
             copy = _arrays.new_array(of_points.shape)
             copy[...] = of_points
             of_points = copy

@@ -113,7 +113,7 @@ class _Source(NamedTuple):
     """The data from which bars are computed, and the data that a page shows with them."""
 
     request: Request
-    vertices: Any = None  # positions of the vertices
+    vertices: Any = None  # positions of the vertices in space
     has_axes: bool = False
 
 
@@ -149,7 +149,8 @@ def report_of_bars(bars: Barcode, X: Any, title: str, options: dict[str, Any]) -
     kind = meta.get("complex")
     known = (*_KNOWN.get(str(kind), ()), *_OF_ALL)
     given = {name: meta[name] for name in known if meta.get(name) is not None}
-    if given.get("diagonal") == "births":  # points are given by their weights
+    # The barcode stores these births as weights; the data give them as well.
+    if given.get("diagonal") == "births":
         given.pop("weights", None)
     if isinstance(X, (Mesh, Simplices, Boundary)):
         kind = None

@@ -25,10 +25,10 @@ def p_values(bars: Barcode | ArrayLike, dim: int | None = None, *, filtration: s
              corrected: bool = True) -> NDArray[np.float64]:
     """The p-value of each bar: the probability that noise has a bar that stands out as much.
 
-    For loops, voids and holes of higher dimension of point sets. log log (death / birth), shifted
-    to the mean that it has for noise, follows one law whatever the points are drawn from
-    [Bobrowski, Skraba 2023]. Values may be radii, diameters or squares. With few bars the test is
-    weak, because the shift is computed from the mean of these bars.
+    The test applies to loops, voids and holes of higher dimension of point sets. For noise,
+    log log (death / birth) follows one law up to a shift, whatever distribution the points are
+    drawn from [Bobrowski, Skraba 2023]. Values may be radii, diameters or squares. With few bars
+    the test is weak, because the shift is computed from the mean of these bars.
 
     Parameters
     ----------

@@ -185,7 +185,7 @@ def unique_pairs(row: NDArray[np.int64], column: NDArray[np.int64], values: NDAr
     if len(starts) == len(i):
         return i, j, values
     largest, least = (np.maximum.reduceat(values, starts), np.minimum.reduceat(values, starts))
-    with np.errstate(invalid="ignore"):  # two infinite ones
+    with np.errstate(invalid="ignore"):  # the difference of two infinite entries is NaN
         differ = largest - least > rounding
     if symmetrise is None and differ.any():
         k = int(np.argmax(differ))

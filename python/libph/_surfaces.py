@@ -60,7 +60,7 @@ class Surface(NamedTuple):
                  regular, options={})
 
     def _checked(self) -> tuple[NDArray[np.float64], NDArray[np.int64], int]:
-        """Vertices, triangles, and the number of triangles that are not singular."""
+        """The vertices, the triangles, and the number of triangles that are not singular."""
         points = _arrays.as_points(self.vertices, "vertices")
         if points.shape[1] not in (2, 3):
             raise UsageError(f"vertices: found an array of shape {points.shape}, expected (n, 2) "

@@ -82,7 +82,8 @@ class Barcode(Cells, Summaries, Sequence[Bar]):
 
     @classmethod
     def _of(cls, bars: _core.Bars, meta: Mapping[str, Any]) -> Barcode:
-        """Adds the facts found during the computation."""
+        """The barcode of bars of _core. The facts found during the computation are added to
+        `meta`."""
         facts = bars.facts
         known = {"max_dim": facts.max_dim, "threshold": facts.threshold, "engine": facts.engine,
                  "collapsed": facts.collapses or None, "vertices": facts.vertices,

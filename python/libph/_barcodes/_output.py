@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 
 def lengths(births: NDArray[np.float64], deaths: NDArray[np.float64]) -> NDArray[np.float64]:
-    """0 for a bar that dies at its birth, even at -inf."""
+    """The length of each bar: 0 for a bar that dies at its birth, even at -inf."""
     lengths = np.zeros(len(births))
     np.subtract(deaths, births, out=lengths, where=deaths != births)
     return lengths

@@ -36,7 +36,7 @@ def plot(bars: Barcode, kind: Any, ax: Axes | None, noise: float | None, style: 
 
 
 class _Ends(NamedTuple):
-    """The least and largest finite value, and where -inf and inf are drawn."""
+    """The least and the largest finite value, and the positions at which -inf and inf are drawn."""
 
     finite: tuple[float, float]
     infinite: tuple[float, float]

@@ -46,7 +46,7 @@ def barycentre(diagrams: Iterable[Barcode | ArrayLike], dim: int | None = None, 
 
     A local minimum of the mean square of the Wasserstein distances of order 2 with Euclidean ground
     norm. The search starts at the medoid. Each bar of the result is the mean of the bars with which
-    it is paired; many of them may be short.
+    it is paired; many bars of the result may be short.
 
     Parameters
     ----------

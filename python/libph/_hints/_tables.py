@@ -95,7 +95,7 @@ SKLEARN = _table(
      "giotto-tda has it, and takes what output='giotto' gives"),
 )
 
-# Keyed by the equivalent keyword of the function.
+# Names of keywords in other packages. The key is the equivalent keyword of libph.
 _KEYWORDS = {
     "max_dim": "maxdim max_dimension maxdimension homology_dimensions max_homology_dim",
     "threshold": "thresh max_edge_length max_edge maxscale",

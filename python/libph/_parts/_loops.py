@@ -88,7 +88,7 @@ class ImageLoops:
         try:
             self._loops = _run.run(_core.RunningLoops, held, self._field, options=dict(run))
         except UsageError:
-            part._held = held  # the message was not examined
+            part._held = held  # the part keeps its voxels, because they were not taken
             raise
         self._meta = part._meta()
         self.part: int = self._loops.part

@@ -43,8 +43,8 @@ class Segment(NamedTuple):
         The labels of the objects that it touches with the values at which they meet, in the order
         of these values.
     role : str
-        "object", or "unknown" if there is no support at all, or if it stands on nothing visible and
-        the border of the image cuts it off.
+        "object" or "unknown". It is "unknown" if the scene has no support, or if the border of the
+        image cuts the object off and nothing is visible on which it stands.
     on : tuple of (str, int) or None
         What it stands on: ("surface", i), where i is an index into `Segmentation.surfaces`, or
         ("object", label). None if this is not visible.
@@ -193,7 +193,7 @@ def standing_on(surface: int, label: int) -> tuple[str, int] | None:
 
 
 def segment_of(facts: dict[str, Any]) -> Segment:
-    """Made from the data of _core."""
+    """The `Segment` of an object, made from the facts of _core."""
     arrays = {name: np.array(facts[name]) for name in ("centroid", "box", "centre", "axes", "size")}
     for array in arrays.values():
         array.flags.writeable = False

@@ -61,8 +61,9 @@ def segment(cloud: Any, *, method: str | None = None, supervoxels: float | None 
     voxel : float, optional
         The edge of a voxel. Default: 0.005, or more for a sparse cloud; "paper": 0.01.
     min_persistence : float, optional
-        The least persistence of a part. For "surface" in units of the noise, that is, of how
-        concave the free supporting plane looks, default 1; for "supervoxels" a length, default 0.
+        The least persistence of a part. For "surface", its unit is the noise: the concavity that
+        the free part of the supporting plane shows. Default: 1. For "supervoxels", it is a length.
+        Default: 0.
     min_part : int, optional
         The fewest voxels of a part; a smaller part joins a neighbour. Default: 200; for
         "supervoxels" 8. Not for "paper".
@@ -88,8 +89,8 @@ def segment(cloud: Any, *, method: str | None = None, supervoxels: float | None 
         The segmentation of the frame before, from the same camera. The search for the supporting
         plane starts at the plane of that frame, so that the plane does not jump.
     viewpoint : sequence of float, optional
-        The position of the sensor. Default: as the file or the rays of the pixels tell, else the
-        origin.
+        The position of the sensor. Default: the position that the file or the rays of the pixels
+        give, otherwise the origin.
     distance : float, optional
         For "paper": the largest distance that joins two voxels. Default: 0.025.
     steps : int or "exact", optional
@@ -147,7 +148,7 @@ def segment(cloud: Any, *, method: str | None = None, supervoxels: float | None 
 
 
 def _told(scene: Scene, found: _core.Segmentation) -> list[str]:
-    """The warnings for the user; also kept in the result."""
+    """The warnings for the user, which the result also keeps."""
     for note in scene.cloud.notes:
         _LOG.info("%s: %s", scene.name or "cloud", note)
     for note in found.notes:
@@ -206,7 +207,7 @@ def _if_given(check: Any, name: str, options: dict[str, Any], default: Any = Non
 
 
 def _plane_of(name: str, value: Any) -> tuple[float, ...] | None:
-    """The plane of a segmentation, and its share of the points."""
+    """The plane of a segmentation, and the share of the points that belong to it."""
     if not isinstance(value, Segmentation):
         raise _options.refuse(name, value, "the result of ph.segment for the frame before")
     plane = value.meta.get("plane")

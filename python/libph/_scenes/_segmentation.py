@@ -165,8 +165,8 @@ class Segmentation:
             The least persistence of a part; for method "paper", the distance up to which voxels
             join, at most the distance of the tree. Default: unchanged.
         n : int, optional
-            Instead of `value`: the number of objects to find. A cut that already has this number
-            does not change; otherwise `min_seam` is 0 unless it is given.
+            Instead of `value`: the number of objects to find. If the cut already has this many
+            objects, it does not change. Otherwise `min_seam` is set to 0, unless it is given.
         min_part, min_size, objects, min_seam
             As in `segment`. Default: unchanged.
         **run
@@ -323,7 +323,7 @@ class Segmentation:
         Parameters
         ----------
         title : str
-            Title of the page. Default: the name of the file, or what the scene is.
+            Title of the page. Default: the name of the file, or a description of the scene.
         **run
             `threads`, `memory_limit`, `progress`, `timeout`, `stop`; see `libph`.
 

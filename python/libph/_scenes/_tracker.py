@@ -21,8 +21,8 @@ class Tracked(NamedTuple):
     number : int
         The number of the object, which stays the same from frame to frame.
     role : str
-        "object", "unknown", "support" or "wall": a wall that is an object in one frame is still a
-        wall.
+        "object", "unknown", "support" or "wall". A wall that one frame shows as an object keeps
+        the role "wall".
     on : tuple of (str, int) or None
         What it stands on, in the form of `Segment.on` of that frame.
     """
@@ -74,7 +74,7 @@ class LabelTracker:
         Parameters
         ----------
         frame : Segmentation or array_like of int
-            The result of `segment`, or labels of a raster from elsewhere, where 0 means none.
+            The result of `segment`, or labels from another source, where 0 means none.
 
         Returns
         -------

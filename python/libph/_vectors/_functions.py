@@ -45,12 +45,13 @@ def statistics_names() -> list[str]:
 
 
 def statistics(dgm: Diagram) -> Vector:
-    """38 numbers."""
+    """The 38 numbers that `statistics_names` lists."""
     return _filled(_core.statistics, dgm, len(statistics_names()))
 
 
 def checked_entropy(unit: Any, normalised: Any, norms: Sequence[Any]) -> None:
-    """Refuses unknown units and norms, and a unit for a number that has none."""
+    """Refuses unknown units and norms. Also refuses a unit for a normalised entropy, which has
+    none."""
     _options.choice("unit", unit, UNITS)
     _options.choice("normalised", normalised, norms)
     if normalised and unit != "nats":
@@ -116,7 +117,7 @@ def life_entropy(dgm: Diagram, ends: Range, count: int, unit: str = "nats",
                  normalised: bool = False) -> Vector:
     """The entropy of the bars that are alive at each value.
 
-    `normalised`: the values have the sum 1.
+    If `normalised`, the values are divided by their sum.
     """
     values = _filled(_core.life_entropy_curve, dgm, count, ends)
     if normalised:
@@ -174,7 +175,7 @@ def _density(centres: Vector, span: Range, count: int, bandwidth: float) -> Vect
 
 
 def fit_atol(dgms: list[Diagram], centres: int, seed: int) -> tuple[Vector, Vector]:
-    """Centres, rows birth, death, and widths."""
+    """Learns centres. Returns them as rows birth, death, and returns their widths."""
     places, widths = _run.run(_core.fit_atol, dgms, centres, seed, 300, options={})
     return np.asarray(places), np.asarray(widths)
 

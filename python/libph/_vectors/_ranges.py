@@ -40,14 +40,14 @@ def widened(low: float, high: float, width: float = 1.0) -> Range:
 
 
 def range_of_values(dgms: Sequence[Diagram]) -> Range:
-    """From the least to the largest finite number in the diagrams."""
+    """The range from the least to the largest finite number in the diagrams."""
     return _core.fitted_range(list(dgms))
 
 
 def ranges_of_image(dgms: Sequence[Diagram], births: Range | None, lengths: Range | None
                     ) -> tuple[Range, Range]:
-    """Ranges of births and persistence. None stands for all births, and for 0 to the longest
-    bar."""
+    """The ranges of births and of persistence. In place of a range, None stands for all births, or
+    for persistence from 0 to the longest bar."""
     joined = np.concatenate([np.empty((0, 2)), *dgms])
     joined = joined[joined[:, 0] < joined[:, 1]]  # bars of length 0 do not count
     if lengths is None:
@@ -73,5 +73,5 @@ def checked_resolution(resolution: Any) -> tuple[int, int]:
 
 
 def default_bandwidth(births: Range, lengths: Range) -> float:
-    """A twentieth of the longer range."""
+    """The default bandwidth: a twentieth of the longer range."""
     return _BANDWIDTH * max(births[1] - births[0], lengths[1] - lengths[0])

@@ -72,9 +72,9 @@ class Summaries:
         unit : {"nats", "bits"}
             Natural logarithms, or logarithms to the base 2, as in giotto-tda.
         normalised : {None, "count", "total"}
-            "count": divided by the logarithm of the number of bars, its largest value, as persim
-            can. "total": divided by the logarithm of the sum of their lengths, as giotto-tda can;
-            this depends on the unit of the values.
+            "count": divided by its largest value, the logarithm of the number of bars, which is an
+            option of persim. "total": divided by the logarithm of the sum of their lengths, which
+            is an option of giotto-tda; the result depends on the unit of the values.
 
         Returns
         -------
@@ -358,7 +358,7 @@ class Summaries:
         return dgm, ends, count
 
     def _settled(self, dim: int, infinity: Any, may_keep: bool) -> Diagram:
-        """The bars of a dimension, without infinite ends if required."""
+        """The bars of a dimension, without infinite ends if `infinity` excludes them."""
         rule = checked_infinity(infinity, may_keep)
         rows = self.dgm(dim)
         if rule == "drop":  # including bars born at -inf

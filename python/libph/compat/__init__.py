@@ -16,7 +16,7 @@ from .._errors import UsageError
 
 __all__ = ["install"]
 
-# The modules of each package, with the module of ours that holds each one if the names differ.
+# The modules of each package. If libph's own module has another name, the value is that name.
 _MODULES: dict[str, dict[str, str]] = {
     "ripser": {"ripser.ripser": "ripser"},
     "gph": {"gph.modules": "", "gph.modules.gph_collapser": "", "gph.modules.gph_ripser": "",
@@ -79,7 +79,8 @@ def install(*names: str) -> None:
     sys.modules.update(ours)
     for name, module in ours.items():
         package, _, own = name.rpartition(".")
-        if package and not hasattr(ours[package], own):  # persim.bottleneck is the function
+        # persim.bottleneck is a function, not a module.
+        if package and not hasattr(ours[package], own):
             setattr(ours[package], own, module)
 
 

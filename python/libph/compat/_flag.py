@@ -204,9 +204,9 @@ def _refuse_nan(numbers: NDArray[Any], name: str) -> None:
 
 
 def _strips(array: NDArray[Any]) -> Any:
-    """The part above the diagonal, some rows at a time: the first and last row, the square on the
-    diagonal with the upper triangle mirrored and zeros on the diagonal, and the block to its
-    right."""
+    """Yields the part above the diagonal, some rows at a time. Each item has the first row and the
+    last; the square on the diagonal, whose upper triangle is mirrored and whose diagonal is 0; and
+    the block to the right of this square."""
     for begin in range(0, len(array), _STRIP):
         end = min(begin + _STRIP, len(array))
         corner = np.triu(array[begin:end, begin:end], 1)

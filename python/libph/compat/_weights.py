@@ -59,7 +59,7 @@ def _of_sparse(matrix: Any, weights: ArrayLike | str, p: float, params: Mapping[
     row, column, values = _arrays.sparse_entries(matrix)
     _refuse_negative(values)
     row, column, values = (a[row != column] for a in (row, column, values))
-    # Each pair once; if a pair has two entries, the upper one.
+    # Each pair once. If a pair has two entries, the upper one counts.
     i, j = np.minimum(row, column), np.maximum(row, column)
     order = np.lexsort((row > column, j, i))
     i, j, values = i[order], j[order], values[order]
@@ -93,7 +93,8 @@ def _given(weights: ArrayLike, n: int) -> NDArray[np.float64]:
 
 def distance_to_measure(distances_of: Any, n: int, params: Mapping[str, Any],
                          has_itself: bool = True) -> NDArray[np.float64]:
-    """Twice the mean with exponent r of the distances to the nearest points and to itself."""
+    """For each point, twice the mean, with exponent r, of the distances to its nearest points and
+    to itself."""
     neighbours = _options.whole("weight_params: n_neighbors", params.get("n_neighbors", 3), 1)
     r = _options.positive("weight_params: r", params.get("r", 2))
     births = np.empty(n)

@@ -60,9 +60,9 @@ def computePH(arr: ArrayLike, maxdim: int = 2, top_dim: bool = False, embedded: 
         One row per bar: dimension, birth, death, the three coordinates of the voxel that has the
         birth value, and those of the voxel that has the death value (four coordinates each for
         images with four axes). A bar that never dies has the largest double as its death, and zeros
-        as coordinates. A birth at -inf is minus that number. Voxels of the layer of `embedded` have
-        coordinates -1, or the extent of the image. H0 is sorted by death, other dimensions by
-        descending birth.
+        as coordinates. A birth at -inf is minus the largest double. Voxels of the layer of
+        `embedded` have coordinates -1, or the extent of the image. H0 is sorted by death, other
+        dimensions by descending birth.
     """
     return _rows("computePH", arr, "vertices", maxdim, top_dim, embedded, run)
 
@@ -145,7 +145,7 @@ def _rows(function: str, arr: ArrayLike, construction: str, maxdim: int, top_dim
 
 def _table(barcode: Any, dim: int, image: NDArray[Any], is_vertices: bool,
            margin: NDArray[np.int64]) -> NDArray[np.float64]:
-    """The rows of a dimension."""
+    """The rows of `computePH` for one dimension."""
     dgm = barcode.dgm(dim)
     order = ordered(dgm, dim)
     dgm = dgm[order]

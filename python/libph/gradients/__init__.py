@@ -2,9 +2,9 @@
 """Births and deaths as functions of points, distances and pixels, and their derivatives.
 
 A birth or a death is the value of a cell, and one element of the input determines this value: the
-longest edge of a simplex, or one pixel of a cube. In a neighbourhood of X the same element
-determines it. Its derivative is therefore the derivative of a distance, or 1 at a pixel. This holds
-if all values differ.
+longest edge of a simplex, or one pixel of a cube. If all values differ, the same element determines
+the value throughout a neighbourhood of X. The derivative of the birth or the death is then the
+derivative of a distance, or 1 at a pixel.
 
 At ties, births and deaths are not differentiable. There, the derivative of one of the tied elements
 is returned:

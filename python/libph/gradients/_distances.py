@@ -22,7 +22,7 @@ class Distances:
         raise NotImplementedError
 
     def rows(self, i: Integers) -> Numbers:
-        """The distances of some points to all points."""
+        """The distances from some points to all points."""
         raise NotImplementedError
 
     def add(self, i: Integers, j: Integers, factors: Numbers) -> None:

@@ -80,7 +80,7 @@ class RipsValues(CellValues):
         return (points[first:first + step] for first in range(0, len(points), step))
 
     def _spread_births(self) -> None:
-        """Births of `weights="dtm"` are functions of distances themselves."""
+        """With `weights="dtm"`, births are themselves functions of distances."""
         for part in self._parts(np.flatnonzero(self._of_births)):
             rows = self._distances.rows(part)
             near = np.argsort(rows, axis=1, kind="stable")[:, :self._neighbours]
@@ -111,7 +111,7 @@ class RipsValues(CellValues):
                      (np.where(is_met, of_a, is_a), np.where(is_met, of_b, ~is_a)))
 
     def _longest(self, cells: Integers) -> Integers:
-        """The last edge of each simplex; for a vertex, the vertex twice."""
+        """The ends of the last edge of each simplex; for a vertex, the vertex twice."""
         if cells.shape[1] == 1:
             return np.repeat(cells, 2, axis=1)
         best = np.empty((len(cells), 2), dtype=np.int64)
@@ -157,7 +157,7 @@ def _met_of_squares(lengths: Numbers, a: Numbers, b: Numbers) -> tuple[Numbers, 
     """The t at which balls with radii of half the roots of t² - a² and t² - b² meet, and its
     derivatives.
 
-    If one ball contains the other, they meet when the latter is born.
+    If a ball already contains the other one at its birth, they meet at this birth.
     """
     # In a unit of about their size, no square overflows. Powers of 2 cause no rounding.
     largest = np.maximum(lengths, np.maximum(a, b))

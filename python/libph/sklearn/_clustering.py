@@ -24,7 +24,7 @@ from ._neighbours import METRICS, Neighbours
 _Integers = NDArray[np.int64]
 _Numbers = NDArray[np.float64]
 
-_STANDS_OUT = 1.5  # ratio to the next bar that bars of noise seldom reach
+_STANDS_OUT = 1.5  # least ratio of a bar to the next one that bars of noise seldom reach
 
 
 class PersistenceClustering(ClusterMixin, BaseEstimator):
@@ -171,7 +171,8 @@ class PersistenceClustering(ClusterMixin, BaseEstimator):
         return np.concatenate([hills.passes, self._joined_parts(points, hills, wanted)])
 
     def _joined_parts(self, points: _Numbers, hills: _Hills, wanted: int) -> _Integers:
-        """The densest peak of each component; then single linkage of these peaks."""
+        """Finds the densest peak of each component, and then joins these peaks by single
+        linkage."""
         is_highest = np.ones(len(hills.peaks), dtype=bool)
         is_highest[hills.lower] = False
         highest = np.flatnonzero(is_highest)

@@ -17,7 +17,7 @@ from ._vectoriser import Vectoriser, ranges_of
 class _OnGrid(Vectoriser):
     """Functions of the filtration value, at the values of a grid."""
 
-    _ending: str  # prefix of the names, before a number
+    _ending: str  # prefix of the names of features, followed by a number
     resolution: Any
     range: Any
 

@@ -66,7 +66,7 @@ class Neighbours:
         return _in_metric(np.ldexp(distances, exponent), self._name), places
 
     def _by_all(self, rows: _Numbers, points: _Numbers) -> tuple[_Numbers, NDArray[np.int64]]:
-        """Computes all distances, some rows at a time."""
+        """Computes all distances, some rows at a time, and selects the nearest points."""
         many = max(1, _ENTRIES // len(points))
         strips = [rows[start:start + many] for start in range(0, len(rows), many)]
         found = Parallel(n_jobs=self._n_jobs, prefer="threads")(

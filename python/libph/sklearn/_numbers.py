@@ -55,9 +55,9 @@ class Entropy(Vectoriser):
     unit : {"nats", "bits"}
         Natural logarithms, or logarithms to the base 2, as in giotto-tda.
     normalised : {None, "count", "total"}
-        "count": divided by the logarithm of the number of bars, its largest value, as persim can.
-        "total": divided by the logarithm of the sum of their lengths, as giotto-tda can; this
-        depends on the unit of the values.
+        "count": divided by its largest value, the logarithm of the number of bars, which is an
+        option of persim. "total": divided by the logarithm of the sum of their lengths, which is
+        an option of giotto-tda; the result depends on the unit of the values.
 
     Examples
     --------

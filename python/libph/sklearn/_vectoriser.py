@@ -102,7 +102,8 @@ class Vectoriser(MakesTables, TransformerMixin, TakesDiagrams):
                  for dgm, name in zip(row, samples.names)] for i, row in enumerate(samples.rows)]
 
     def _check(self) -> None:
-        """Refuses parameters that `transform` reads, which may have changed since `fit`."""
+        """Checks the parameters that `transform` reads, because they may have changed since
+        `fit`."""
 
     def _fit_columns(self, columns: list[list[Diagram]]) -> None:
         """For each place in a sample, the diagrams at this place."""

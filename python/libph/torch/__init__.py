@@ -29,7 +29,7 @@ __all__ = ["cubical", "lower_star", "rips"]
 
 
 class _Values(torch.autograd.Function):
-    """Rows birth, death of all bars."""
+    """The rows birth, death of all bars, as a function of the data."""
 
     @staticmethod
     def forward(ctx: Any, X: Any, bars: Barcode, weights: Any) -> Any:
@@ -48,7 +48,7 @@ class _Values(torch.autograd.Function):
 
 
 def _array(X: Any) -> Any:
-    """The same numbers in a type that NumPy knows; it lacks bfloat16."""
+    """The same numbers in a type that NumPy knows, because NumPy lacks bfloat16."""
     tensor = X.detach().cpu()
     return (tensor.double() if tensor.dtype == torch.bfloat16 else tensor).numpy()
 

@@ -196,7 +196,7 @@ class PeriodicCubicalComplex(CubicalComplex):
 
 def _with_cells_between(values: NDArray[np.float64], axis: int, periodic: bool, is_vertices: bool
                         ) -> NDArray[np.float64]:
-    """The cells along an axis that lie between the given ones and at the ends."""
+    """Inserts, along one axis, the cells that lie between the given cells and at the ends."""
     a = np.moveaxis(values, axis, 0)
     following = np.roll(a, -1, axis=0)
     n = len(a)

@@ -24,7 +24,7 @@ class Persistence:
         self._above: NDArray[np.float64] | None = None
 
     def _keep(self, barcode: Barcode, dims: int, above: NDArray[np.float64] | None = None) -> None:
-        """Stores the bars of this many dimensions; `above` holds births of bars of the last
+        """Stores the bars of this many dimensions. `above` holds the births of the bars of the last
         dimension, which never die."""
         self._found, self._dims, self._above = barcode, dims, above
 

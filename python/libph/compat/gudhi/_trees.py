@@ -153,8 +153,9 @@ class FlagTree(Persistence):
 
     def _skeleton(self, field: int) -> tuple[NDArray[np.float64], dict[str, Any],
                                              NDArray[np.float64], NDArray[np.int64]]:
-        """Edges as a matrix, in the form that `rips` accepts, and the bars in the dimension of the
-        complex: values and vertices of its simplices that kill no bar of the dimension below."""
+        """Returns the edges as a matrix, in the form that `rips` accepts, and the bars in the
+        dimension of the complex. These bars are given by the values and the vertices of their
+        simplices, which kill no bar of the dimension below."""
         n = len(self._data)
         limit = self._options["threshold"]
         limit = np.inf if limit is None else limit
@@ -295,7 +296,8 @@ def _space(points: Any, distances: Any, name: str, limit: float
 
 
 def _square(distances: Any) -> NDArray[np.float64]:
-    """A full matrix; lower rows, or a square whose upper triangle is 0, are mirrored."""
+    """The full matrix. Rows of a lower triangle, or a square whose upper triangle is 0, are
+    mirrored."""
     if isinstance(distances, (list, tuple)) and all(
             hasattr(row, "__len__") and len(row) in (i, i + 1) for i, row in enumerate(distances)):
         square = np.zeros((len(distances),) * 2)

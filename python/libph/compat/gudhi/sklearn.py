@@ -166,5 +166,5 @@ class CubicalPersistence(_DiagramsOfEach):
                 "min_persistence": self.min_persistence}
 
     def _in_order(self, dgm: NDArray[np.float64], dim: int) -> NDArray[np.float64]:
-        """By death."""
+        """Sorted by death, as in GUDHI."""
         return super()._in_order(dgm, 0)
