@@ -124,7 +124,7 @@ class Run {
 
   /// @throws Error.
   Outcome operator()() {
-    std::optional<Outputs> outputs;  // a file that cannot be created is reported first
+    std::optional<Outputs> outputs;  // opened early, to report a file that cannot be created
     if (!job_.results.dry_run) outputs.emplace(job_.places);
     std::optional<Input> input(open());
     if (is_stored_) return run_stored(job_, *input, *outputs, session_);

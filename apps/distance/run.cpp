@@ -140,7 +140,7 @@ class Run {
     return distances;
   }
 
-  /// Notes infinite distances, because only the text format states the reason beside each of them.
+  /// Notes infinite distances, because only the text format states the reason next to each of them.
   void note_infinite(const PairDistances& distances) const {
     if (table_ && !matrix_ && arguments_.table_format() == OutputFormat::text) return;
     for (std::size_t d = 0; d < distances.dims().size(); ++d) {

@@ -16,7 +16,7 @@ from ._errors import (Cancelled, DataError, Error, MemoryLimitError, NotBuiltIn,
 from ._simplices import joined_values, simplex_list
 from ._sources import Source, metric_name, source_of
 
-_MOST_DIMENSIONS = 1_000_000  # larger than any simplex that fits into memory
+_MOST_DIMENSIONS = 1_000_000  # no simplex that fits into memory has a higher dimension
 _EXPONENTS = {1: "1", 2: "2", math.inf: "inf"}
 ALPHA_VALUES = ["alpha", "delaunay-cech", "delaunay-rips"]
 _NUMBERS = {name: number for number, name in _EXPONENTS.items()}

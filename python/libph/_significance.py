@@ -288,11 +288,11 @@ def permutation_test(distances: ArrayLike, groups: Any, *, shuffles: int = 1000,
         raise DataError(f"distances: row {i}, column {i}: found {matrix[i, i]}, expected 0 on the "
                         "diagonal")
     try:
-        labels = np.asarray(groups, dtype=object)  # a number beside words stays a number
+        labels = np.asarray(groups, dtype=object)  # a number among words stays a number
         if any(label != label for label in labels.flat):
             raise ValueError("NaN is equal to nothing")
         names, numbers = np.unique(labels, return_inverse=True)
-    except (TypeError, ValueError):  # None, words beside numbers, lists of different lengths
+    except (TypeError, ValueError):  # None, numbers among words, lists of unequal lengths
         raise _options.refuse("groups", groups, "numbers or words, none of them NaN, one for "
                               "each row of the distances") from None
     if labels.shape != (len(matrix),):

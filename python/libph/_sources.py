@@ -215,7 +215,7 @@ def _fail(row: NDArray[np.int64], column: NDArray[np.int64], values: NDArray[np.
 
 
 def _of_function(X: Any, metric: Callable[[Any, Any], float], nan: str | None) -> Source:
-    """Distances of any things, each pair evaluated once."""
+    """The distances between any objects; the metric is called once per pair."""
     things = X if isinstance(X, (list, tuple)) else _arrays.as_array(X, "X")
     if not isinstance(things, (list, tuple)) and things.ndim == 0:
         raise UsageError("X: found one number, expected points")

@@ -16,7 +16,7 @@ function runsOfMask(mask) {
   return Uint32Array.from(runs);
 }
 
-/// The unit squares that triangles of rectangles along the axes cover, by name.
+/// The names of the unit squares that are covered by the triangles of rectangles along the axes.
 function squaresOf(corners) {
   const squares = new Set();
   for (let i = 0; i < corners.length; i += 18) {

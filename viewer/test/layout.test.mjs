@@ -31,7 +31,8 @@ const unreachable = (page) =>
   page.evaluate(() => {
     const bad = [];
     for (const panel of document.querySelectorAll(".panel, .top")) {
-      panel.scrollIntoView({ block: "start" }); // not the control: that could move it within its panel
+      // Scrolling to the control could move it within its panel.
+      panel.scrollIntoView({ block: "start" });
       for (const control of panel.querySelectorAll("header button, header select, header input, nav > *")) {
         if (!control.checkVisibility() || control.closest("dialog, .items")) continue;
         const box = control.getBoundingClientRect(),

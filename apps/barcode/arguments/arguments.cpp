@@ -148,8 +148,8 @@ void add_picture_options(app::Options& options, app::PlotArguments& plots) {
 /// @return true if the first plot is the file that -o names.
 bool take_word(Job& a, app::PlotArguments& plots) {
   if (a.inputs.empty() || a.inputs.front() != "plot") return false;
-  // If `plot` is the only input and a file has this name, the file is meant; beside other inputs,
-  // such a file must be given as ./plot.
+  // If `plot` is the only input and a file has this name, the file is meant; together with other
+  // inputs, such a file must be given as ./plot.
   if (a.inputs.size() == 1 && std::filesystem::exists("plot")) return false;
   a.stored = true;
   a.inputs.erase(a.inputs.begin());

@@ -18,7 +18,7 @@ struct BuiltComplex {
   std::string name;                 ///< "rips", "cubical", "explicit", "lower-star", "alpha", …
   std::optional<double> threshold;  ///< threshold of its values; empty: all values are there
   bool empty = false;               ///< true if there are no points or cells at all
-  // As in BarcodeInfo.
+  // The same as the member of BarcodeInfo.
   std::string vertex_weights = {};
   std::string metric = {};
   std::optional<CubicalOptions> cubical = std::nullopt;  ///< for an image

@@ -36,7 +36,8 @@ struct Loaded {
   std::string name;  ///< name of the input, printable
   std::string description;
   std::vector<Index> point_ids;
-  // The data that the complex refers to or that a report shows; counted in the budget.
+  // The data that the complex refers to or that a report shows; their memory is counted in the
+  // budget.
   std::optional<NamedData> data = {};
   std::unique_ptr<MemoryClaim> claim = {};
 };

@@ -90,8 +90,8 @@ struct Surface {
   std::string option() const { return is_wrap ? "--wrap" : "--alpha-shape"; }
 };
 
-/// One input and the destinations of its results. For several inputs, the command line has folders
-/// or patterns here, and each input gets its own places.
+/// One input, and the destinations of its results. If there are several inputs, the command line
+/// has folders or patterns here, and each input gets its own places.
 struct Places {
   std::string input = {};  ///< empty: the inputs of the job
   std::string output = "-";

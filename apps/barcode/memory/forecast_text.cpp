@@ -11,7 +11,7 @@ namespace ph::barcode {
 
 namespace {
 
-/// @param beside words for the memory that the forecast does not count.
+/// @param beside words for the memory that is needed in addition to the forecast.
 template <class Forecast>
 std::string lines_of(const Forecast& forecast, std::string_view process, std::string_view beside) {
   std::string text;

@@ -30,7 +30,8 @@ using report::ReportFile;
 // distance takes only seconds.
 constexpr std::size_t kMostComparedBars = 40'000;
 
-/// The points that the page shows; empty if there are none, or if cells belong to a grid.
+/// The points that the page shows; empty if there are none, or if cells are named by grid
+/// coordinates.
 std::optional<PointsView> shown_points(const Shown& shown) {
   if (std::holds_alternative<Cubical>(shown.built.complex)) return std::nullopt;
   const auto points = points_of(shown.data.read);

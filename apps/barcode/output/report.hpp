@@ -29,7 +29,7 @@ struct Shown {
 /// @throws Error (io, resource, cancelled).
 void write_report(OutputFile& file, const Shown& shown, const Job& job, app::Session& session);
 
-/// --compare: reads two barcodes, writes their distances and the report of both. @return the exit
+/// --compare: reads two barcodes, and writes their distances and a report of both. @return the exit
 /// code.
 /// @throws Error like read_barcode and OutputFile.
 int run_comparison(const Job& job, app::Session& session);

@@ -23,7 +23,7 @@ class InputsPart {
   struct Result {
     std::size_t input = 0;  ///< number of the input
     int code = 0;           ///< exit code of the program for this input
-    std::string failure;    ///< why there are no bars; empty: the bars are there
+    std::string failure;    ///< the reason if there are no bars; empty: the bars are there
     Barcode bars;
   };
 

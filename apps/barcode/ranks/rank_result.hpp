@@ -21,7 +21,7 @@ struct RankBars {
 /// The result of a rank once all ranks are joined.
 struct RankResult {
   std::string kept;              ///< where --resume keeps the part of this rank; empty: not kept
-  std::optional<RankBars> bars;  ///< on rank 0
+  std::optional<RankBars> bars;  ///< only on rank 0
 };
 
 /// Computes an image on all ranks, or with --dry-run prints what they will need.
@@ -33,8 +33,8 @@ RankResult cloud_of_ranks(const Job& job, Transport& transport, app::Session& se
 /// The file in which --resume keeps the part of a rank.
 std::string kept_path(const Job& job, int rank, int parts);
 
-/// The part of this rank. With --resume, it is read from its file if `find_kept` accepts it;
-/// otherwise `compute` makes it, and with --resume it is then written to the file.
+/// The part of this rank. With --resume, `find_kept` looks for the part in a file. If it finds
+/// none, `compute` makes the part, and with --resume the part is written to the file.
 /// @param find_kept returns an optional part. @param compute returns a part.
 /// @param can_keep returns true if a file can replace a part.
 template <class FindKept, class Compute, class CanKeep>

@@ -11,8 +11,8 @@ namespace ph::app {
 /// each program names its own.
 using Situations = std::uint32_t;
 
-/// The situations in which an option has an effect. In any other situation the option is refused as
-/// a misunderstanding: ignoring it would answer a question that nobody asked.
+/// The situations in which an option has an effect. In any other situation the option is refused,
+/// because the user must have misunderstood it.
 struct Scope {
   Situations where = ~Situations{0};  ///< the option has an effect in any of these
   std::string_view meant_for = {};    ///< the words for them: "points"

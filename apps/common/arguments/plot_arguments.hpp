@@ -51,10 +51,10 @@ struct PlotArguments {
   PlotOptions look;             ///< look of all plots: title, size, axis, dimensions
   std::vector<PlotLook> looks;  ///< the options that set the look
 
-  /// Pairs each picture with its kind, in turn; the last kind applies to the rest.
+  /// Pairs each picture with its kind, in turn; the last kind applies to all further pictures.
   /// @param usual the kind of all pictures if none is given.
-  /// @throws Error (usage) if there are more kinds than pictures, two pictures in one file, or a
-  /// look that applies to none of them.
+  /// @throws Error (usage) if there are more kinds than pictures, if two pictures have one file, or
+  /// if a look applies to none of them.
   std::vector<Plot> together(std::string_view usual) const;
 };
 

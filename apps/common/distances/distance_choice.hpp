@@ -37,7 +37,7 @@ struct DistanceChoice {
   double wasserstein_order = 1;
   double wasserstein_ground = kInfinity;
   int directions = 50;    ///< for the sliced distance
-  DistanceLimits limits;  ///< for the other distances
+  DistanceLimits limits;  ///< for all distances except the sliced one
 
   std::string_view name() const { return name_of(kind); }
   /// The order p of the Wasserstein distance; infinite for the bottleneck distance.

@@ -17,8 +17,9 @@ struct Written {
   std::string path;
 };
 
-/// The identity of a file, whatever its name: its place on the disk or, if it does not exist yet,
-/// the nearest existing folder above it. "-" is the destination of standard output.
+/// The identity of a file, whatever its name: its place on the disk. For a file that does not exist
+/// yet, it is the nearest existing folder above it, and the path from there. "-" is the destination
+/// of standard output.
 struct FileIdentity {
   std::uint64_t device = 0, inode = 0;
   std::string name;  ///< the path from that folder; empty: the file exists

@@ -7,7 +7,7 @@
 
 namespace ph::app {
 
-/// Splits a text at its blanks into words.
+/// Splits a text into words at its blanks.
 std::vector<std::string_view> words_of(std::string_view text);
 
 /// Breaks a text at its blanks into lines of at most this many characters, unless a word is longer.

@@ -33,7 +33,7 @@ struct FormatList {
   std::vector<FormatText> formats;
 };
 
-/// The description of a program beside its options. Help texts, manual page, reference page and
+/// The description of a program, without its options. Help texts, manual page, reference page and
 /// completions are made from it and the options.
 struct Manual {
   std::string_view program;

@@ -15,8 +15,8 @@ struct Program {
 
 /// Runs the body of a program and turns any outcome into an exit code and at most one line on
 /// stderr: `name: what`. SIGINT, SIGTERM and SIGHUP request a stop through the token that the body
-/// receives; the program ends within 0.2 s even if the body ignores the token, and at once on a
-/// second signal. SIGPIPE is ignored; a broken pipe ends the program quietly.
+/// receives. The program ends within 0.2 s even if the body ignores the token, and on a second
+/// signal it ends at once. SIGPIPE is ignored; a broken pipe ends the program quietly.
 int run_program(const Program& program, const std::function<int(std::stop_token)>& body);
 
 /// The exit code of the exception in flight. Reports the exception on stderr as `name: subject:

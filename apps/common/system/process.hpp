@@ -4,9 +4,9 @@
 
 namespace ph::app {
 
-/// Sets up the process for the program: standard descriptors that are open and pass bytes
-/// unchanged, errors instead of signals if nobody reads an output or a disk is full, and an
-/// allocator that keeps freed blocks.
+/// Prepares the process. The standard descriptors are open and pass bytes unchanged. If nobody
+/// reads an output, or if a disk is full, the program gets an error instead of a signal. The
+/// allocator keeps freed blocks.
 void prepare_process();
 
 /// True if a descriptor is open and was open when the program started. Descriptors that the program

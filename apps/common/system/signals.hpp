@@ -7,10 +7,10 @@
 
 namespace ph::app {
 
-/// Turns SIGINT, SIGTERM and SIGHUP into a stop request while it lives; there is one at a time. The
-/// first signal requests a stop. If the process still exists 0.06 s later, or on a second signal,
-/// it ends at once: registered temporary files are removed, and nothing is unwound. If no thread
-/// can be created, the first signal ends the process.
+/// While this object lives, SIGINT, SIGTERM and SIGHUP become a stop request; at most one such
+/// object exists at a time. The first signal requests a stop. If the process still exists 0.06 s
+/// later, or on a second signal, it ends at once: registered temporary files are removed, and
+/// nothing is unwound. If no thread can be created, the first signal ends the process.
 class SignalWatch {
  public:
   SignalWatch();

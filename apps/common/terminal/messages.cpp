@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::string_view kWipe = "\r\x1b[K";
 
-// One per process, like standard error.
+// There is one per process, as there is one standard error.
 std::mutex mutex;
 bool status_is_shown = false;
 

@@ -15,10 +15,10 @@ struct Groups {
   std::vector<std::int64_t> of;  // for each barcode, the index of its group in `names`
 };
 
-/// Reads one word per line; blank lines and comments, which start at #, are skipped.
+/// Reads one word per line, and skips blank lines and comments, which start at #.
 /// @param count number of barcodes.
 /// @throws Error (bad_data) on a line of several words, a different number of lines, fewer than two
-///         groups, or a group with a single barcode.
+/// groups, or a group with a single barcode.
 Groups read_groups(const Input& input, std::size_t count);
 
 /// "control 4, treated 5"

@@ -17,8 +17,9 @@ struct DimMatching {
   app::DiagramMatching matching;
 };
 
-/// Writes all pairs with the ends of their bars and the cost of each pair: its distance in the
-/// ground norm. If a bar goes to the diagonal, its partner is the nearest point of the diagonal.
+/// Writes all pairs, the ends of their bars, and the cost of each pair, which is its distance in
+/// the ground norm. If a bar is paired with the diagonal, its partner is the nearest point of the
+/// diagonal.
 void write_matching(OutputFile& file, std::span<const DimMatching> matchings, bool is_json,
                     const app::DistanceChoice& choice, const std::vector<std::string>& inputs);
 

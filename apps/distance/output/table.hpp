@@ -13,7 +13,7 @@ namespace ph::distance_program {
 /// The columns that describe a distance, and their cells.
 inline constexpr std::string_view kChoiceColumns = "distance,order,ground,directions";
 std::string choice_cells(const app::DistanceChoice& choice);
-/// Members of a document that state its format and distance; without braces.
+/// The members of a document that state its format and its distance, without braces.
 /// @param format the name of the format.
 std::string document_members(std::string_view format, const app::DistanceChoice& choice,
                              const std::vector<std::string>& inputs);

@@ -13,7 +13,7 @@
 
 namespace ph::segment {
 
-/// The facts that files state beside the segmentation.
+/// The facts that files state in addition to the segmentation.
 struct RunInfo {
   std::string program;      ///< name and version
   std::string input;        ///< path of the input
@@ -45,7 +45,7 @@ class Outputs {
 
   /// @throws Error (usage) if a file needs rows and columns and the cloud is unorganised.
   void require_suitable(Index height) const;
-  /// @param cloud null: a stored tree was cut. Writes and completes all files.
+  /// Writes and completes all files. @param cloud null: a stored tree was cut.
   void write(const Cloud* cloud, const Segmentation& segmentation, const RunInfo& info,
              const RunContext& context);
 

@@ -157,7 +157,7 @@ class Reader {
     else
       fit_.infinite = {Rule::cap, json_.number()};  // mutant: fit-infinite
   }
-  /// The settings that affect the vectors of a kind, beside its blocks.
+  /// The settings that affect the vectors of a kind, in addition to its blocks.
   static std::vector<const char*> parameters_of(Kind kind) {
     switch (kind) {
       case Kind::landscape:

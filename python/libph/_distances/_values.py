@@ -23,7 +23,7 @@ _DISTANCES = ["bottleneck", "wasserstein", "sliced_wasserstein"]
 
 
 @overload
-def bottleneck(  # type: ignore[misc]  # a Barcode is array_like, too: the first that fits counts
+def bottleneck(  # type: ignore[misc]  # a Barcode is also array_like; the first match counts
         a: Barcode, b: Barcode, dim: None = None, *, relative_error: float = 0.0,
         at_most: float = math.inf, **run: Unpack[RunOptions]) -> dict[int, float]: ...
 @overload

@@ -30,7 +30,7 @@ _BLOCK = 2**20  # numbers computed at a time
 
 def _filled(function: Callable[..., None], dgm: Diagram, shape: int | tuple[int, ...],
             *arguments: Any) -> Vector:
-    """The output of a function of _core."""
+    """The array that a function of _core fills."""
     out = _arrays.new_array(shape)
     _run.run(function, dgm, *arguments, out.reshape(-1), options={})
     return out
@@ -93,7 +93,7 @@ def checked_power(name: str, value: Any) -> float:
 
 
 def factor_of(height: str) -> float:
-    """The factor of the heights of tents."""
+    """The factor by which the heights of tents are multiplied."""
     return math.sqrt(2) if height == "euclidean" else 1.0
 
 

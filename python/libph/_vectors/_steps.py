@@ -43,7 +43,7 @@ class StepFunction:
         return cls(*(_frozen(block) for block in blocks))
 
     @overload
-    def __call__(  # type: ignore[misc]  # a number is array_like, too: the first that fits counts
+    def __call__(  # type: ignore[misc]  # a number is also array_like; the first match counts
             self, t: float) -> int: ...
     @overload
     def __call__(self, t: ArrayLike) -> NDArray[np.int64]: ...

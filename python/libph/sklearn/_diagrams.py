@@ -67,7 +67,7 @@ def _rows_of(samples: Sequence[Any]) -> Samples:
     split = [_parts_of(sample) for sample in samples]
     are_diagrams = any(parts is None for parts in split)
     for i, (sample, parts) in enumerate(zip(samples, split)):
-        if parts is None or (are_diagrams and not parts):  # beside diagrams, [] is an empty diagram
+        if parts is None or (are_diagrams and not parts):  # among diagrams, [] is an empty diagram
             rows.append([as_diagram(sample, f"sample {i}")])
         else:
             rows.append([as_diagram(part, f"sample {i}, diagram {j}")

@@ -25,7 +25,7 @@ std::size_t place_in(const Bars& bars, std::int64_t i) {
   return static_cast<std::size_t>(i);
 }
 
-/// The cells of one dimension of bars, one per row; -1 where there is none.
+/// The cells of the bars of one dimension, one per row; -1 for a bar without such a cell.
 /// @param cell_of returns the numbers of the cell of the bar at an index.
 template <class CellOf>
 Block cells_of(const Bars& bars, int dim, std::size_t width, const CellOf& cell_of) {
@@ -40,7 +40,7 @@ Block cells_of(const Bars& bars, int dim, std::size_t width, const CellOf& cell_
                    {static_cast<py::ssize_t>(count), static_cast<py::ssize_t>(width)});
 }
 
-/// The count of numbers that name a cell of a dimension.
+/// The number of integers that name a cell of a dimension.
 std::size_t width_of(const Bars& bars, int dim) {
   const Barcode& all = bars.barcode;
   if (all.cell_kind() == CellKind::vertices) return static_cast<std::size_t>(dim + 1);

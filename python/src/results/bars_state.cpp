@@ -57,7 +57,7 @@ class Lists {
   std::vector<std::int64_t> numbers_, ends_;
 };
 
-/// The data of a bar beside its values.
+/// The data of a bar in addition to its values.
 struct Parts {
   std::span<const Index> birth_cell, death_cell;
   std::span<const Index> chain;  // the numbers of its cells, one after another
@@ -154,7 +154,7 @@ struct LoopLists {
   }
 };
 
-/// A member of a state that names one of a number of choices.
+/// A member of a pickled state that names one of several choices.
 template <class Enum>
 Enum choice_of(const py::dict& state, const char* name, Enum last) {
   const auto value = state[name].cast<int>();

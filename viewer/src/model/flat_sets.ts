@@ -3,8 +3,8 @@
 import type { Numbers } from "./payload";
 
 /// The data that distinguish the walls and boards of a scene from its segments: how many vertices
-/// of each leaf lie on each plane. If at least the share `least` of a set lies on plane p, the set
-/// is surface `first` + p.
+/// of each leaf lie on each plane. A set of leaves is surface `first` + p if at least the share
+/// `least` of its vertices lies on plane p.
 export interface FlatLeaves {
   on: Numbers; // leaf by leaf, `planes` numbers each
   planes: number;

@@ -108,7 +108,8 @@ export class MergeTree {
     const merge = this.deathOf[branch]!;
     return merge === kNone ? Infinity : this.arrays.values[merge]!;
   }
-  /// The branch that a leaf belongs to in a cut: the first enclosing one that is not merged.
+  /// The branch that a leaf belongs to in a cut: the innermost branch around the leaf that is not
+  /// merged.
   branchAt(leaf: number, cut: number): number {
     let branch = leaf;
     for (;;) {

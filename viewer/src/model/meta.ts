@@ -37,7 +37,7 @@ export interface SegmentMeta {
   on_segment?: number; // the number of the segment that it stands on
 }
 
-/// The properties of a segmentation beside its labels.
+/// The properties of a segmentation in addition to its labels.
 export interface SceneMeta {
   segments: SegmentMeta[];
   surfaces: { role: "support" | "wall" }[]; // by number, from 1

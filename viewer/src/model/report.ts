@@ -41,11 +41,11 @@ export interface Chains {
   first: Float64Array; // index into `cells` of each chain
 }
 
-/// Sets of voxels of bars, as runs of places in the image.
+/// Sets of voxels of bars, as runs of consecutive voxels.
 export interface VoxelSets {
   ofBar: Map<number, number>;
   start: Numbers; // set i has the runs start[i] … start[i + 1] - 1
-  runs: Numbers; // first place and length of each
+  runs: Numbers; // index of the first voxel, and number of voxels, of each run
   surfaces: Map<number, Float32Array>; // the surfaces of the bars seen last, by bar
 }
 
@@ -98,8 +98,8 @@ function checkScene(scene: unknown): void {
     if (typeof colour !== "string" || !/^#[0-9a-f]{6}$/.test(colour)) fail("a segment has no colour");
 }
 
-/// Characters that change the text direction would let a name disguise the text around it. Command
-/// lines keep them, because they must name the file.
+/// Characters that change the text direction could make a name disguise the text around it, so they
+/// are replaced. Command lines keep them, because they must name the file.
 function readable(value: unknown, key = ""): unknown {
   if (key === "command") return value;
   if (typeof value === "string") return value.replace(/[\u202a-\u202e\u2066-\u2069]/g, "\ufffd");

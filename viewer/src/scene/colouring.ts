@@ -43,7 +43,7 @@ export class Colouring {
     this.rgba = new Uint8Array(this.shown.buffer);
   }
 
-  /// The values that a continuous colour spans.
+  /// The range of values that a continuous colour scale covers.
   range(mode: ColourMode): Range | undefined {
     if (!["grey", "depth", "birth", "persistence"].includes(mode)) return undefined;
     let range = this.ranges.get(mode);

@@ -79,7 +79,7 @@ export function shapesOf(session: Session): Shape[] {
     )
       cells.add(geometry, chains.cells, at, arity);
   }
-  const outline = { ...deaths, triangles: [] }; // filled, it would cover the visible data
+  const outline = { ...deaths, triangles: [] }; // filled triangles would cover the visible data
   return [
     ...hulls,
     ...[...byDim].map(([dim, geometry]) =>

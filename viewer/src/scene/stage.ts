@@ -38,7 +38,7 @@ export class Stage {
   besides: ((side: 0 | 1) => void) | undefined;
   /// Called after each picture, so that overlays follow.
   rendered: (() => void) | undefined;
-  turned: (() => void) | undefined; // moved by the reader
+  turned: (() => void) | undefined; // called when the reader has moved the picture
   /// Solid data in perspective get depth shading.
   readonly dome: EyeDome | undefined;
   private held = false;
@@ -84,7 +84,8 @@ export class Stage {
   get data(): Scene {
     return this.dome?.scene ?? this.scene;
   }
-  /// Changes the viewpoint. The controls keep the upward direction of their creation.
+  /// Changes the viewpoint. New controls are made, because controls keep the upward direction that
+  /// they start with.
   face(pose: Pose): void {
     this.pose = pose;
     this.camera.up.copy(pose.up);
@@ -163,7 +164,7 @@ export class Stage {
     const { width, height } = this.size;
     return { width: this.besides ? width / 2 : width, height };
   }
-  /// The distance of a place from the eye along the line of sight.
+  /// The distance of a place from the eye, measured along the line of sight.
   depthOf(x: number, y: number, z: number): number {
     return -new Vector3(x, y, z).applyMatrix4(this.camera.matrixWorldInverse).z;
   }

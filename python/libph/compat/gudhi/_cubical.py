@@ -120,7 +120,7 @@ class CubicalComplex(Persistence):
     def persistence(self, homology_coeff_field: int = 11, min_persistence: float = 0
                     ) -> list[tuple[int, tuple[float, float]]]:
         """Computes like `compute_persistence` and returns a list of (dimension, (birth, death)):
-        the highest dimension first, the longest bars first within it."""
+        the highest dimension first and, within a dimension, the longest bars first."""
         self.compute_persistence(homology_coeff_field, min_persistence)
         return self._listed()
 

@@ -101,8 +101,8 @@ class FlagTree(Persistence):
 
     def persistence(self, homology_coeff_field: int = 11, min_persistence: float = 0,
                     persistence_dim_max: bool = False) -> list[tuple[int, tuple[float, float]]]:
-        """Computes, as `compute_persistence`, and lists (dimension, (birth, death)): the highest
-        dimension first, then the longest bars."""
+        """Computes like `compute_persistence` and returns a list of (dimension, (birth, death)):
+        the highest dimension first and, within a dimension, the longest bars first."""
         self.compute_persistence(homology_coeff_field, min_persistence, persistence_dim_max)
         return self._listed()
 

@@ -24,7 +24,7 @@ _RIPS_INPUTS = ["point cloud", "full distance matrix", "lower distance matrix",
 
 
 class _DiagramsOfEach(TransformerMixin, BaseEstimator):
-    """Processes samples one by one, in threads."""
+    """Computes the diagrams of samples, each on one of several threads."""
 
     homology_dimensions: int | Sequence[int]
     homology_coeff_field: int
@@ -53,7 +53,7 @@ class _DiagramsOfEach(TransformerMixin, BaseEstimator):
                 for dim in np.atleast_1d(np.asarray(self.homology_dimensions)).tolist()]
 
     def _input(self, x: Any) -> Any:
-        """The arguments of the function."""
+        """The arguments of the function that computes the barcode of a sample."""
         raise NotImplementedError
 
     def _keywords(self) -> dict[str, Any]:
