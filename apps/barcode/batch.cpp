@@ -23,7 +23,8 @@
 namespace ph::barcode {
 namespace {
 
-/// Only JSON and the report have room for representatives, and only JSON has room for loops.
+/// Refuses a format that has no room for the requested results: only JSON and the report hold
+/// representatives, and only JSON holds loops.
 /// @throws Error (usage).
 void require_room(BarcodeFormat format, const Job& job) {
   if (!job.results.dry_run) require_significance(format, job);
@@ -96,7 +97,7 @@ void prepare_folders(const Job& job, BarcodeFormat format) {
     app::prepare_outputs(surface.option(), surface.path);
 }
 
-/// No output may replace an input or another output. @throws Error (usage).
+/// Checks that no output replaces an input or another output. @throws Error (usage).
 void require_separate(const app::InputFiles& inputs, const std::vector<app::Written>& outputs,
                       const Job& job, app::Session& session) {
   const bool replaces = app::require_separate(inputs, outputs, job.common.force);

@@ -225,7 +225,8 @@ class Run {
     if (promise_) session_.note(fmt::format("{}: {}", loaded.name, *promise_));
   }
 
-  /// The complex alone is enough, unless the data are shown, checked, or used directly.
+  /// Frees the data if the complex alone is enough: no output shows the data, and neither --check
+  /// nor the computation uses them.
   void give_back_data(Loaded& loaded, const RunPlan& plan) const {
     if (!job_.places.report.empty() || job_.results.check || plan.form == RipsForm::points) return;
     if (auto* rips = std::get_if<Rips>(&loaded.built.complex)) rips->forget_input();

@@ -18,7 +18,7 @@ namespace ph::barcode {
 
 namespace {
 
-/// No output may replace an input or another output. @throws Error (usage).
+/// Checks that no output replaces an input or another output. @throws Error (usage).
 void require_separate(const Job& job) {
   app::InputFiles inputs;
   for (const std::string& input : job.inputs) inputs.add(input);

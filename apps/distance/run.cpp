@@ -100,7 +100,7 @@ class Run {
   }
 
  private:
-  /// No output may replace an input. @throws Error (usage).
+  /// Checks that no output replaces an input. @throws Error (usage).
   void require_separate() const {
     app::InputFiles inputs;
     for (const std::string& file : files_) inputs.add(file);

@@ -53,7 +53,7 @@ Cloud read_points(const Input& input, bool allow_empty, app::Session& session) {
 /// True if the answer is a text on standard output.
 bool prints(const Arguments& a) { return a.explain || !a.files.any(); }
 
-/// No output may replace an input. @throws Error (usage).
+/// Checks that no output replaces an input. @throws Error (usage).
 void require_separate(const Arguments& a, app::Session& session) {
   std::vector<app::Written> outputs = a.files.written();
   // mutant: file-table
@@ -174,7 +174,7 @@ std::vector<std::optional<Barcode>> signatures_of(const Segmentation& s, app::Se
   return signatures;
 }
 
-/// The messages of --verbose about the stages.
+/// Prints the messages of --verbose about the stages.
 void explain_stages(const Segmentation& s, const Arguments& arguments, app::Session& session) {
   for (const Stage& stage : s.stages) {
     session.explain(
@@ -221,7 +221,7 @@ std::string about_viewpoint(const OutputPaths& files, const Cloud* cloud) {
   return {};
 }
 
-/// The view for the next frame; warns if the camera moved since the last one.
+/// Keeps the view for the next frame, and warns if the camera has moved since the last one.
 void remember(const Segmentation& s, Remembered& remembered, std::vector<std::string>& warned) {
   if (!s.tree.plane) return;
   if (const auto motion = camera_motion(remembered.last, s.tree))

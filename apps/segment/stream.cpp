@@ -87,7 +87,7 @@ class Stream {
     replaces_input_ = replaces_input_ || frame.replaced_by(json().path);
   }
 
-  /// No output may replace an input or another output. @throws Error (usage).
+  /// Checks that no output replaces an input or another output. @throws Error (usage).
   void require_separate(const Arguments& one) {
     std::vector<app::Written> outputs = one.files.written();
     if (outputs.empty()) return;

@@ -62,7 +62,7 @@ class Run {
  private:
   bool is_fitting() const { return arguments_.fitted.empty(); }
 
-  /// No output may replace an input. @throws Error (usage).
+  /// Checks that no output replaces an input. @throws Error (usage).
   void require_separate() const {
     app::InputFiles inputs;
     for (const std::string& file : files_) inputs.add(file);  // mutant: table-inputs

@@ -119,8 +119,9 @@ def _are_near(numbers: NDArray[Any], number: Any, rounding: float) -> bool:
 
 
 def _warn_of_a_matrix(points: NDArray[np.float64]) -> None:
-    """A symmetric array with 0 or 1 on its diagonal hardly holds points, except if they are the
-    corners of a regular simplex, whose coordinates take two values."""
+    """Warns of an array of points that may be a matrix: a symmetric array with 0 or 1 on its
+    diagonal hardly holds points, except for the corners of a regular simplex, whose coordinates
+    take two values."""
     rows, columns = points.shape
     if rows != columns or rows < 4:
         return

@@ -181,7 +181,7 @@ test("the first view", { timeout: 300_000 }, async (t) => {
     await page.mouse.move(2, 2);
     await frame(page);
     assert.match(await selection(page), /^H₀/);
-    // The number of the branch disappears although only the overlay of the chart is redrawn.
+    // The branch gets its number again, although only the overlay of the chart is redrawn.
     await page.keyboard.press("Escape");
     await page.waitForFunction(() => document.querySelectorAll(".numbers text").length === 0);
     await page.evaluate(() => {

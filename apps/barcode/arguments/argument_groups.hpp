@@ -9,33 +9,34 @@
 // derives settings from them, and throws Error (usage).
 namespace ph::barcode {
 
-/// The options that select the data read from a table or a picture: --columns, --delay, --channel.
+/// Registers the options that select the data read from a table or a picture: --columns, --delay,
+/// --channel.
 void add_table_options(app::Options& options, Job& job);
 /// Decides how a table is read if the other options leave only one way to read it.
 void check_table_arguments(Job& job);
 
-/// The options that describe an image in a file without a header: --raw-shape and others.
+/// Registers the options that describe an image in a file without a header: --raw-shape and others.
 void add_raw_options(app::Options& options, Job& job);
-/// The options for images and cubical complexes.
+/// Registers the options for images and cubical complexes.
 void add_cubical_options(app::Options& options, Job& job);
 /// Checks the options that describe an image without a header.
 void check_image_arguments(Job& job);
 
-/// The options that select the complex.
+/// Registers the options that select the complex.
 void add_complex_options(app::Options& options, Job& job);
-/// The options that select the computation: dimensions, field, engine, representatives.
+/// Registers the options that select the computation: dimensions, field, engine, representatives.
 void add_homology_options(app::Options& options, Job& job);
 
-/// The options for Rips complexes only: collapse, samples, approximation, weights.
+/// Registers the options for Rips complexes only: collapse, samples, approximation, weights.
 void add_rips_options(app::Options& options, Job& job);
 /// Checks that at most one option gives weights, and that no option excludes weights.
 void check_rips_arguments(Job& job);
 
-/// The options for alpha complexes only.
+/// Registers the options for alpha complexes only.
 void add_alpha_options(app::Options& options, Job& job);
 void check_alpha_arguments(Job& job);
 
-/// --part, --join and the options that apply to parts.
+/// Registers --part, --join and the options that apply to parts.
 void add_part_options(app::Options& options, Job& job);
 void check_part_arguments(const Job& job);
 

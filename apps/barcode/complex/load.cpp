@@ -75,7 +75,7 @@ bool may_be_bars(const ReadResult& read) {
   return true;
 }
 
-/// The error for data that could not be read, with a hint if they can be read as bars.
+/// Throws the error for data that could not be read, with a hint if they can be read as bars.
 [[noreturn]] void fail_to_read(const Job& job, const Error& error, Format format,
                                const RunContext& context) {
   bool has_bars = false;

@@ -39,7 +39,8 @@ int print_help(int argc, char** argv) {
   });
 }
 
-/// By default, the ranks of one machine share its memory and cores.
+/// Divides the memory and the cores of this machine among its ranks, where options do not say
+/// otherwise.
 void share_machine(ph::app::CommonOptions& options, int ranks) {
   const auto count = static_cast<unsigned>(ranks);
   if (!options.memory_limit) options.memory_limit = ph::machine_memory() / count;

@@ -54,7 +54,7 @@ auto kept_or_computed(const std::string& kept, const Job& job, app::Session& ses
   return part;
 }
 
-/// The message of --verbose for a rank that has finished.
+/// Prints the message of --verbose for a rank that has finished.
 void explain_costs(const Post& post, app::Session& session);
 
 /// Computes an image, or the components of points, on all ranks. Each rank calls this function with

@@ -37,7 +37,7 @@ class Options {
   /// Begins a topic of --help, to which the options registered next belong.
   void topic(std::string_view name);
 
-  /// The inputs: the arguments that do not belong to an option.
+  /// Registers the inputs: the arguments that do not belong to an option.
   void inputs(const std::string& name, const std::string& description,
               std::vector<std::string>& to);
   /// An option with a value, which `take` reads.

@@ -40,9 +40,9 @@ class SignalsWait {
   SignalsWait& operator=(const SignalsWait&) = delete;
 };
 
-/// From now on, the process ends with kIo and one line if it reads mapped bytes of a file that no
-/// longer exist, because the file was shortened or its disk failed. Registered temporary files are
-/// removed. @param program named in the message; lives as long as the process.
+/// Makes the process end with kIo and one line if, from now on, it reads mapped bytes of a file
+/// that no longer exist, because the file was shortened or its disk failed. Registered temporary
+/// files are removed. @param program named in the message; lives as long as the process.
 void end_where_mapped_files_shrink(std::string_view program);
 
 /// Registers a file to be removed if a signal ends the process at once. @return a slot for

@@ -23,10 +23,10 @@ struct Known {
               *plot_view = nullptr;
 };
 
-/// The options for the stages before the plane is removed.
+/// Registers the options for the stages before the plane is removed.
 void add_scene_options(app::Options& options, SegmentOptions& to);
 Known add_method_options(app::Options& options, SegmentOptions& to);
-/// The options that also apply to a stored tree. Contradictions are refused.
+/// Registers the options that also apply to a stored tree, and refuses contradictions.
 void add_cut_options(app::Options& options, CutArguments& cut, const Known& known);
 void add_output_options(app::Options& options, Arguments& arguments, app::PlotArguments& plots,
                         Known& known);

@@ -34,9 +34,9 @@ constexpr app::Scope kOfBoth{kAnyInput | kBySurface | kAnyPlane,
 
 /// @throws Error (usage) on an option that has no effect for this kind of input.
 void require_input(std::span<const app::GivenOption> given, Situation input);
-/// The same for a method.
+/// The same for an option that has no effect for this method.
 void require_method(std::span<const app::GivenOption> given, Method method);
-/// The same for the removal of the plane.
+/// The same for an option that has no effect if the plane is removed, or if it is not.
 void require_plane(std::span<const app::GivenOption> given, bool plane);
 
 }  // namespace ph::segment

@@ -115,7 +115,7 @@ def ripser(X: Any, maxdim: int = 1, thresh: float = np.inf, coeff: int = 2,
 
 
 def _look_at_shape(X: Any, is_distances: bool, n_perm: int | None) -> None:
-    """ripser.py's warnings and errors."""
+    """Raises the warnings and errors of ripser.py about the shape of the data."""
     rows, columns = X.shape
     if is_distances:
         if rows != columns:

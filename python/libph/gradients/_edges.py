@@ -80,7 +80,8 @@ class RipsValues(CellValues):
         return (points[first:first + step] for first in range(0, len(points), step))
 
     def _spread_births(self) -> None:
-        """With `weights="dtm"`, births are themselves functions of distances."""
+        """Passes the derivatives with respect to births on to distances, because births with
+        `weights="dtm"` are functions of distances."""
         for part in self._parts(np.flatnonzero(self._of_births)):
             rows = self._distances.rows(part)
             near = np.argsort(rows, axis=1, kind="stable")[:, :self._neighbours]

@@ -106,7 +106,7 @@ class Vectoriser(MakesTables, TransformerMixin, TakesDiagrams):
         `fit`."""
 
     def _fit_columns(self, columns: list[list[Diagram]]) -> None:
-        """For each place in a sample, the diagrams at this place."""
+        """Learns parameters from the diagrams at each place in a sample."""
 
     def _vector(self, dgm: Diagram, place: int) -> Any:
         raise NotImplementedError

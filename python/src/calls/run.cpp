@@ -76,7 +76,7 @@ class Calls {
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
   }
-  /// In a forked process, the threads of these calls do not exist.
+  /// Forgets all calls in a forked process, in which their threads do not exist.
   static void forget_all() { calls_.clear(); }
 
  private:

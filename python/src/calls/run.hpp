@@ -36,8 +36,8 @@ class Timeout : public Error {
   explicit Timeout(double seconds);
 };
 
-/// The environment of a computation. An object that keeps memory of the budget beyond the run must
-/// keep this as well.
+/// The environment of a computation. An object that keeps memory of the budget after the run must
+/// keep this environment as well.
 using SharedContext = std::shared_ptr<const RunContext>;
 
 /// Runs `task(context)` without the GIL.

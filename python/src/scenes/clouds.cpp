@@ -32,8 +32,8 @@ Colours colours_of(const py::buffer_info& array) {
   return {static_cast<const std::uint8_t*>(array.ptr), static_cast<int>(array.shape.back())};
 }
 
-/// The fields of a cloud from arrays are the fields of the same cloud in a .npy file: numbers and,
-/// if there are colours, red, green and blue.
+/// Adds a field to a cloud from arrays. The cloud has the fields that the same cloud in a .npy file
+/// would have: numbers and, if there are colours, red, green and blue.
 void add_field(Cloud& cloud, const char* name, FieldType type) {
   cloud.fields.push_back({name, type, 1, cloud.stride});
   cloud.stride += size_of(type);

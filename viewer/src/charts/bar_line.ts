@@ -39,7 +39,7 @@ export function drawLine(pen: Pen, item: Item, thick: number, colour: string, ed
   pen.polygon(corners, colour, 1, edge > 0 ? colour : "none", 2 * edge);
 }
 
-/// A bar with an outline, both within its row, so that it covers no other bar.
+/// Draws a bar with an outline, both within its row, so that it covers no other bar.
 export function drawChosen(pen: Pen, item: Item, colour: string, outline: string): void {
   const edge = item.row > kRowOfFew ? 1.5 : 1;
   const thick = Math.max(1, Math.min(0.75 * item.row, item.row - 2 * edge));

@@ -267,7 +267,8 @@ export class MergeTree {
       branch[sets.join(younger, elder)] = survivor;
     }
   }
-  /// Depth first; branches that merge first come first, so that a drawing has no crossings.
+  /// Sorts the branches depth first. Branches that merge first come first, so that a drawing has no
+  /// crossings.
   private orderBranches(): void {
     const head = new Uint32Array(this.leaves).fill(kNone),
       next = new Uint32Array(this.leaves).fill(kNone);

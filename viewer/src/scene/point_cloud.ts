@@ -118,7 +118,7 @@ export class PointCloud {
   recolour(): void {
     this.tint.needsUpdate = true;
   }
-  /// Far points fade into this colour, by at most `part`; true colours do not change.
+  /// Makes far points fade into this colour, by at most `part`. True colours do not change.
   setAir(colour: string, part: number): void {
     const { r, g, b } = new Color(colour);
     this.material.uniforms["air"]!.value = [r, g, b, part];

@@ -16,7 +16,7 @@ class _OrderError(UsageError, RuntimeError):
 
 
 class Persistence:
-    """Stores bars after their computation."""
+    """Keeps the computed bars, and returns them in the ways of GUDHI."""
 
     def __init__(self) -> None:
         self._found: Barcode | None = None
