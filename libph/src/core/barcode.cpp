@@ -132,8 +132,8 @@ void Barcode::sort(const RunContext& context) {
     if (!are_sorted) sort_values(context);
     return;
   }
-  // Radix sort: by death, then by birth, then by dimension; each pass keeps the order of the one
-  // before, and -0.0 becomes +0.0.
+  // Radix sort by death, then by birth, then by dimension. Each pass keeps the order that the
+  // previous pass produced, and -0.0 becomes +0.0.
   struct Place {
     double value;
     std::size_t bar;

@@ -45,7 +45,7 @@ struct NumberedEdges {
   }
 
   RawVector<Ends> ends;  ///< ascending; a loop has the same vertex twice
-  /// For each site: its first edge as the smaller end; then size() as a last entry.
+  /// For each site: the first edge whose smaller end it is. The last entry is size().
   std::pmr::vector<std::uint32_t> begin;
   /// For each cell: its edges in the order of kEdgeEnds. Empty unless the space is periodic,
   /// because only then several edges may have the same ends.

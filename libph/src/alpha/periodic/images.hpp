@@ -64,7 +64,7 @@ struct Images {
   }
 };
 
-/// For a point: how far beyond the closed faces of the box images of the point are wanted.
+/// For a point: how far images of the point are wanted beyond the closed faces of the box.
 using Margin = std::function<double(const Vector<double>&)>;
 
 /// Lists all images of the sites up to their margins.

@@ -27,8 +27,9 @@ struct Sites {
   double weight(std::uint32_t site) const { return is_weighted() ? weights[site] : 0.0; }
   std::size_t size() const { return points.size(); }
 
-  int coordinates = 0;               ///< coordinates per point: 1, 2 or 3; missing ones are 0
-  int exponent = 0;                  ///< a point of the input is 2^exponent times its site
+  int coordinates = 0;  ///< coordinates per point: 1, 2 or 3; missing ones are 0
+  /// Input coordinates are 2^exponent times the coordinates of sites.
+  int exponent = 0;
   RawVector<Vector<double>> points;  ///< indexed by site
   std::pmr::vector<double> weights;  ///< indexed by site, or empty if no point has a weight
   /// For each site: the point of the input at this place; if there are several, the first of them.

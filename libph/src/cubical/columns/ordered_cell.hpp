@@ -6,8 +6,9 @@
 
 namespace ph::cubical {
 
-/// A cell of one dimension in the order of the stars (GridFrame): by the value of its star, then by
-/// name. Cells of any two parts of a grid can be compared.
+/// A cell that can be compared with other cells of its dimension in the order of the stars
+/// (GridFrame): by the value of its star, then by name. The cells may be in different parts of a
+/// grid.
 /// @tparam rank_bits the number of bits that hold the rank of a direction in a star.
 template <unsigned rank_bits>
 struct OrderedCell {

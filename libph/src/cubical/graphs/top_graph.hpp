@@ -26,8 +26,8 @@ class TopGraph : public TopNodes<StarGrid, 3> {
   /// The top cell that is reached by leaving a top cell through the facet that it is paired with.
   /// Precondition: the cell enters and is not critical.
   std::uint32_t arrow(std::uint32_t node) const;
-  /// Calls `use(node, end of its arrow)` for the top cells before each row of voxels in a range,
-  /// except for some at the border.
+  /// Calls `use(node, end of its arrow)` for the top cells before each row of voxels in a range of
+  /// rows, except for some cells at the border.
   template <class Use>
   void for_each_inner_arrow(std::uint32_t first_row, std::uint32_t end_row, Use&& use) const;
   /// Calls `use(node, number in the star)` for the roots in the star of a voxel, in the order of

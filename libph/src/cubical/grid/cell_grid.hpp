@@ -75,8 +75,8 @@ class CellGrid {
 
   /// The number of positions in the doubled grid, without the axes that are left out.
   static double count_cells(const CubicalImage& grid);
-  /// True if the image has at most 8 axes that are kept and fewer than 2^32 cells, and is not
-  /// empty.
+  /// True if the image is not empty, at most 8 of its axes are kept, and it has fewer than 2^32
+  /// cells.
   static bool can_hold(const CubicalImage& grid);
   /// Starts with all cells marked as never entering. Precondition: can_hold(grid). Time: O(voxels
   /// log voxels). Memory: 8 bytes per voxel and 2 per cell.

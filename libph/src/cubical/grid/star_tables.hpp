@@ -187,7 +187,7 @@ class StarTables {
   static unsigned squares(std::uint32_t star) { return star >> kSquareShift & 4095U; }
   static unsigned cubes(std::uint32_t star) { return star >> kCubeShift & 255U; }
 
-  /// The edge that the voxel is paired with, which is the oldest edge. Precondition: the star has
+  /// The edge with which the voxel is paired: the oldest edge. Precondition: the star has
   /// an edge.
   int arrow(std::uint32_t star) const { return arrow_[edges(star)]; }
   /// The edges that are not paired inside the star.
@@ -263,7 +263,7 @@ class StarTables {
   };
   std::array<OfEdges, 64> of_edges_{};
   std::array<OfSquares, 4096> of_squares_{};
-  // For each set of squares: those of them that are paired with an edge.
+  // For each set of squares: the squares of the set that are paired with an edge.
   std::array<std::uint16_t, 4096> tree_{};
   std::array<std::array<std::int8_t, kEdgeCount>, 4096> up_{};
   std::array<std::uint32_t, 4096> places_begin_{};  // indexed by set of squares

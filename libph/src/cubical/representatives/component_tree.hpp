@@ -19,9 +19,9 @@ namespace ph::cubical {
 /// order of the filtration.
 enum class Before { value, order };
 
-/// Persistent components of one of the two graphs of a grid, as in `ComponentPairing`, with data
-/// that `ComponentPairing` does not keep: the component that each component merges into. A
-/// component is named by the basin of its oldest root.
+/// Persistent components of one of the two graphs of a grid. Unlike `ComponentPairing`, this class
+/// keeps the component into which each component merges. A component is named by the basin of its
+/// oldest root.
 template <class Graph>
 class ComponentTree {
  public:
@@ -75,7 +75,8 @@ class ComponentTree {
     return basin;
   }
 
-  /// Precondition: the component was not always there.
+  /// The critical cell at the oldest root of a component. Precondition: the component was not
+  /// always there.
   StarCell root_cell(std::uint32_t basin) {
     const auto [voxel, number] = basins_.roots()[basin - basins_.outer_count()];
     return {voxel, graph_.root_direction(number), grid_.value(voxel)};

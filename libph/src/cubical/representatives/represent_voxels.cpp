@@ -228,9 +228,9 @@ class Representing {
     rep.voxels = {stored + begin, stored + end};
   }
 
-  // Handles T with one axis or none. The graph of voxels is the dual graph there: its components
-  // are the gaps between the components of T. As sets of voxels, the components of T equal those of
-  // V.
+  // Handles T with one axis or none. In this case, the graph of voxels is the dual graph: its
+  // components are the gaps between the components of T. As sets of voxels, the components of T
+  // equal the components of V.
   void add_line(ComponentTree<VoxelGraph>& tree, const CriticalCells& edges) {
     SeparatingCycles<VoxelGraph, K> cycles(tree, field_, context_);
     std::optional<LineComponents> line;

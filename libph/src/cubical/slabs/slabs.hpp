@@ -141,8 +141,8 @@ class Slabs {
   CubePairMemos cube_pairs_;
   std::pmr::vector<std::byte> around_;
   const RunContext& context_;
-  // Claims memory for the voxels of the current slab if they are in a file, because they are in
-  // memory while they are used.
+  // Claims memory for the voxels of the current slab if the image is in a file, because these
+  // voxels are in memory while they are used.
   std::optional<MemoryClaim> read_;
 };
 

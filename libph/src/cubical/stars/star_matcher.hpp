@@ -15,7 +15,8 @@ namespace ph::cubical {
 using CriticalNames = std::array<std::pmr::vector<CellGrid::Name>, CellGrid::kMostAxes + 1>;
 
 /// Marks each cell of a grid with the voxel that decides its value, and with its partner inside the
-/// star of that voxel; the pairs form a discrete gradient. @return the cells in no such pair.
+/// star of that voxel; the pairs form a discrete gradient. @return the cells that are in no such
+/// pair.
 CriticalNames mark_cells(CellGrid& grid, const RunContext& context);
 
 /// The cells of a star as seen from its voxel, for a given number of axes. The code of a cell is a
