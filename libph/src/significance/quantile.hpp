@@ -20,7 +20,8 @@ inline void check_alpha(double alpha, std::string_view function) {
         fmt::format("{}: alpha: found {}, expected a number above 0, below 1", function, alpha));
 }
 
-/// Sorts the numbers and returns the least one that at most a share alpha of them exceeds.
+/// Sorts the numbers and returns the smallest number that is exceeded by at most a share alpha of
+/// all numbers.
 inline double upper_quantile(std::span<double> numbers, double alpha) {
   std::ranges::sort(numbers);
   // mutant: quantile-side

@@ -87,7 +87,7 @@ double bytes_across(double layer_size) {
   return of_small * std::pow(std::max(1.0, std::sqrt(layer_size) / small), power);
 }
 
-/// Cuts a list of costs into `parts` pieces, none of them empty, of about equal cost.
+/// Cuts a list of costs into `parts` consecutive pieces of about equal cost. No piece is empty.
 std::vector<Index> cut(const std::vector<double>& costs, int parts) {
   const double all = std::reduce(costs.begin(), costs.end());
   const auto size = static_cast<Index>(costs.size());
