@@ -44,7 +44,8 @@ class Summaries:
         dim : int
             The dimension of the bars.
         infinity : {"error", "drop"} or float
-            How to treat a bar that never dies: as an error, left out, or dying at this value.
+            What to do with a bar that never dies: "error" raises an error, "drop" leaves the bar
+            out, and with a number the bar dies at this value.
 
         Returns
         -------
@@ -152,7 +153,8 @@ class Summaries:
             The ends of the grid. Default: the least and the largest finite value of these bars. Set
             the range if curves are to be compared.
         infinity : {"error", "drop"} or float
-            How to treat a bar that never dies: as an error, left out, or dying at this value.
+            What to do with a bar that never dies: "error" raises an error, "drop" leaves the bar
+            out, and with a number the bar dies at this value.
         unit : {"nats", "bits"}
             Natural logarithms, or logarithms to the base 2.
         normalised : bool
@@ -191,10 +193,12 @@ class Summaries:
             The ends of the grid. Default: the least and the largest finite value of these bars. Set
             the range if curves are to be compared.
         infinity : {"error", "drop"} or float
-            How to treat a bar that never dies: as an error, left out, or dying at this value.
+            What to do with a bar that never dies: "error" raises an error, "drop" leaves the bar
+            out, and with a number the bar dies at this value.
         height : {"tent", "euclidean"}
-            The height of a bar: half its length, as the height of its tent; or √2 times as much,
-            the Euclidean distance of (birth, death) from the diagonal, as in GUDHI.
+            The height of a bar. "tent": half its length, which is the height of its tent.
+            "euclidean": √2 times as much, which is the Euclidean distance of (birth, death) from
+            the diagonal, as in GUDHI.
 
         Returns
         -------
@@ -229,11 +233,12 @@ class Summaries:
             The ends of the grid. Default: the least and the largest finite value of these bars. Set
             the range if landscapes are to be compared.
         infinity : {"keep", "error", "drop"} or float
-            How to treat a bar that never dies: growing for ever, as an error, left out, or dying at
-            this value.
+            What to do with a bar that never dies: "keep" lets it grow for ever, "error" raises an
+            error, "drop" leaves the bar out, and with a number the bar dies at this value.
         height : {"tent", "euclidean"}
-            The height of a bar: half its length, as the height of its tent; or √2 times as much,
-            the Euclidean distance of (birth, death) from the diagonal, as in GUDHI.
+            The height of a bar. "tent": half its length, which is the height of its tent.
+            "euclidean": √2 times as much, which is the Euclidean distance of (birth, death) from
+            the diagonal, as in GUDHI.
 
         Returns
         -------
@@ -264,7 +269,8 @@ class Summaries:
         layers : int
             The largest number of layers; layers that are 0 everywhere are left out.
         infinity : {"error", "drop"} or float
-            How to treat a bar that never dies: as an error, left out, or dying at this value.
+            What to do with a bar that never dies: "error" raises an error, "drop" leaves the bar
+            out, and with a number the bar dies at this value.
         height : {"tent", "euclidean"}
             As in `landscape`.
 
@@ -314,12 +320,13 @@ class Summaries:
         weight_power : float
             The weight is the persistence to this power; 0: all weights are 1.
         infinity : {"error", "drop"} or float
-            How to treat a bar that never dies: as an error, left out, or dying at this value.
+            What to do with a bar that never dies: "error" raises an error, "drop" leaves the bar
+            out, and with a number the bar dies at this value.
         pixel : {"integral", "density"}
             The value of a pixel: the integral over it, or the density at its centre, as in GUDHI.
         orientation : {"ascending", "descending", "births"}
-            The meaning of rows: intervals of persistence, ascending or, as in giotto-tda,
-            descending; or intervals of births, as in persim.
+            The meaning of rows. "ascending": intervals of persistence, ascending. "descending": the
+            same, descending, as in giotto-tda. "births": intervals of births, as in persim.
 
         Returns
         -------

@@ -19,7 +19,7 @@ __all__ = ["__version__", "bottleneck", "plot_diagrams", "wasserstein"]
 
 
 def bottleneck(dgm1: ArrayLike, dgm2: ArrayLike, matching: bool = False) -> Any:
-    """The bottleneck distance of bars that die; others are left out with a warning.
+    """The bottleneck distance of the bars that die; all other bars are left out with a warning.
 
     Parameters
     ----------

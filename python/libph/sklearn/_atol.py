@@ -28,7 +28,8 @@ class Atol(Vectoriser):
     seed : int
         Seed for the initial centres.
     infinity : {"error", "drop"} or float
-        How to treat a bar that never dies: as an error, left out, or dying at this value.
+        What to do with a bar that never dies: "error" raises an error, "drop" leaves the bar out,
+        and with a number the bar dies at this value.
 
     Attributes
     ----------

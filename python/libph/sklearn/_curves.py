@@ -47,11 +47,12 @@ class Landscape(_OnGrid):
         Default: the least and the largest finite value in the fitted samples. Values outside the
         range are ignored.
     infinity : {"keep", "error", "drop"} or float
-        How to treat a bar that never dies: growing for ever, as an error, left out, or dying at
-        this value.
+        What to do with a bar that never dies: "keep" lets it grow for ever, "error" raises an
+        error, "drop" leaves the bar out, and with a number the bar dies at this value.
     height : {"tent", "euclidean"}
-        The height of a bar: half its length, as the height of its tent; or √2 times as much, the
-        Euclidean distance of (birth, death) from the diagonal, as in GUDHI.
+        The height of a bar. "tent": half its length, which is the height of its tent. "euclidean":
+        √2 times as much, which is the Euclidean distance of (birth, death) from the diagonal, as in
+        GUDHI.
 
     Attributes
     ----------
@@ -108,10 +109,12 @@ class Silhouette(_OnGrid):
         The ends of the grid: one range for all diagrams of a sample, or one for each of them.
         Default: the least and the largest finite value in the fitted samples.
     infinity : {"error", "drop"} or float
-        How to treat a bar that never dies: as an error, left out, or dying at this value.
+        What to do with a bar that never dies: "error" raises an error, "drop" leaves the bar out,
+        and with a number the bar dies at this value.
     height : {"tent", "euclidean"}
-        The height of a bar: half its length, as the height of its tent; or √2 times as much, the
-        Euclidean distance of (birth, death) from the diagonal, as in GUDHI.
+        The height of a bar. "tent": half its length, which is the height of its tent. "euclidean":
+        √2 times as much, which is the Euclidean distance of (birth, death) from the diagonal, as in
+        GUDHI.
 
     Attributes
     ----------
@@ -160,8 +163,8 @@ class BettiCurve(_OnGrid):
         The ends of the grid: one range for all diagrams of a sample, or one for each of them.
         Default: the least and the largest finite value in the fitted samples.
     infinity : {"keep", "error", "drop"} or float
-        How to treat a bar that never dies: living for ever, as an error, left out, or dying at this
-        value.
+        What to do with a bar that never dies: "keep" lets it live for ever, "error" raises an
+        error, "drop" leaves the bar out, and with a number the bar dies at this value.
 
     Attributes
     ----------
@@ -205,7 +208,8 @@ class LifeEntropy(_OnGrid):
         The ends of the grid: one range for all diagrams of a sample, or one for each of them.
         Default: the least and the largest finite value in the fitted samples.
     infinity : {"error", "drop"} or float
-        How to treat a bar that never dies: as an error, left out, or dying at this value.
+        What to do with a bar that never dies: "error" raises an error, "drop" leaves the bar out,
+        and with a number the bar dies at this value.
     unit : {"nats", "bits"}
         Natural logarithms, or logarithms to the base 2.
     normalised : bool

@@ -31,12 +31,14 @@ class PersistenceImage(Vectoriser):
     weight_power : float
         The weight is the persistence to this power; 0: all weights are 1.
     infinity : {"error", "drop"} or float
-        How to treat a bar that never dies: as an error, left out, or dying at this value.
+        What to do with a bar that never dies: "error" raises an error, "drop" leaves the bar out,
+        and with a number the bar dies at this value.
     pixel : {"integral", "density"}
         The value of a pixel: the integral over it, or the density at its centre, as in GUDHI.
     orientation : {"ascending", "descending", "births"}
-        The meaning of the rows of an image: intervals of persistence, ascending or, as in
-        giotto-tda, descending; or intervals of births, as in persim.
+        The meaning of the rows of an image. "ascending": intervals of persistence, ascending.
+        "descending": the same, descending, as in giotto-tda. "births": intervals of births, as in
+        persim.
 
     Attributes
     ----------

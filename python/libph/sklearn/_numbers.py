@@ -23,7 +23,8 @@ class Statistics(Vectoriser):
     Parameters
     ----------
     infinity : {"error", "drop"} or float
-        How to treat a bar that never dies: as an error, left out, or dying at this value.
+        What to do with a bar that never dies: "error" raises an error, "drop" leaves the bar out,
+        and with a number the bar dies at this value.
 
     Examples
     --------
@@ -51,7 +52,8 @@ class Entropy(Vectoriser):
     Parameters
     ----------
     infinity : {"error", "drop"} or float
-        How to treat a bar that never dies: as an error, left out, or dying at this value.
+        What to do with a bar that never dies: "error" raises an error, "drop" leaves the bar out,
+        and with a number the bar dies at this value.
     unit : {"nats", "bits"}
         Natural logarithms, or logarithms to the base 2, as in giotto-tda.
     normalised : {None, "count", "total"}
@@ -90,7 +92,8 @@ class Lengths(Vectoriser):
     count : int
         Number of lengths for each diagram.
     infinity : {"error", "drop"} or float
-        How to treat a bar that never dies: as an error, left out, or dying at this value.
+        What to do with a bar that never dies: "error" raises an error, "drop" leaves the bar out,
+        and with a number the bar dies at this value.
 
     Examples
     --------

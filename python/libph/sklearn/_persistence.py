@@ -182,8 +182,8 @@ class RipsPersistence(_Persistence):
         birth, death, dimension, padded with bars of length 0 at the least birth of their dimension,
         with at least one bar per dimension. "barcode": a `libph.Barcode` for each sample.
     infinity : None, "drop", "error" or float
-        How to treat bars that never die: None keeps them; otherwise they are left out, raise an
-        error, or die at this value.
+        What to do with bars that never die: None keeps them, "drop" leaves them out, "error" raises
+        an error, and with a number they die at this value.
     reduced : bool
         If True, the component that never dies is left out; if there are several, the eldest.
     n_jobs : int, optional

@@ -48,7 +48,8 @@ std::shared_ptr<RunContext> new_context(const RunOptions& options) {
 /// their return.
 class Calls {
  public:
-  /// Represents one call while it lives. Made and destroyed with the GIL.
+  /// Represents one call as long as the object lives. The GIL must be held when it is made or
+  /// destroyed.
   class Call {
    public:
     explicit Call(std::stop_source* stop = nullptr) : stop_(stop) {
