@@ -2,7 +2,8 @@
 """Decides whether two programs found the same bars, allowing for different rounding.
 
 Programs compute distances in single or double precision and print six digits. The ends of a bar may
-differ in the last digit, and a bar that is empty for one program may be short for another.
+differ in the last digit, and a bar that has length 0 in one program may have a small positive
+length in another.
 """
 import bisect
 import math
@@ -31,8 +32,8 @@ def _close(a, b):
 
 
 def _unmatched(ours, theirs):
-    """The bars of either list that have no partner in the other list: each bar takes the first free
-    one that is close."""
+    """The bars of either list that have no partner in the other list. Each bar is paired with the
+    first unpaired bar that is close to it."""
     births = [birth for birth, _ in theirs]
     free = [True] * len(theirs)
     alone = []
@@ -49,8 +50,8 @@ def _unmatched(ours, theirs):
 
 
 def difference(ours, theirs):
-    """The first difference in words, or None. Bars so short that they may come from rounding do not
-    count."""
+    """A description of the first difference, or None. Bars so short that they may come from
+    rounding do not count."""
     for dim, bars in ours.items():
         other = theirs.get(dim, [])
         for owner, list_ in zip(("ours", "theirs"), _unmatched(bars, other)):

@@ -23,7 +23,7 @@ import rips_table
 from measuring import Limits, Meter
 
 UNITS = {"B": 1, "KiB": 1 << 10, "MiB": 1 << 20, "GiB": 1 << 30, "TiB": 1 << 40}
-START_SLACK = 1.0  # MB: pages of code count only once they are used
+START_SLACK = 1.0  # MB; pages of code count only once they are used
 
 
 def size(text):

@@ -73,7 +73,7 @@ def bars_of(text):
 
 
 def difference(ours, theirs):
-    """The first bar that only one of the lists has, or None."""
+    """The first bar that is in only one of the lists, or None."""
     if ours == theirs:
         return None
     first = next((pair for pair in zip(ours, theirs) if pair[0] != pair[1]), ("no more bars", "or ours has none"))

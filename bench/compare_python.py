@@ -138,7 +138,8 @@ def bars_of(text, python):
 
 
 def compared(row, texts, python):
-    """The programs that ran, each with the first difference from our bars in words, or None."""
+    """The programs that ran. Each has a description of the first difference from our bars, or
+    None."""
     ours, complaint = bars_of(texts["libph"], python)
     if ours is None:
         raise SystemExit(f"{row.name}: libph: {complaint}")

@@ -112,7 +112,7 @@ class Comparison:
         return (our_options if rips_table.is_ours(program.name) else ripser_options)(row, path)
 
     def startup(self, program, row, path, threads):
-        """The CPU seconds of the same call for only two points."""
+        """The CPU seconds that the same command takes for an input of only two points."""
         options = self.options(program, rips_rows.Row("two points", row.max_dim),
                                rips_rows.write_two_points(path, self.made))
         command = tuple(program.command(options, threads))

@@ -35,8 +35,8 @@ void run(benchmark::State& state, const Complex& complex, ph::Options options) {
   state.counters["bars"] = static_cast<double>(bars);
 }
 
-/// Adds one benchmark, with max_dim or the highest lower dimension that the engine supports. Adds
-/// none if there is no such dimension.
+/// Adds one benchmark. Its dimension is max_dim or, if the engine does not support max_dim, the
+/// highest lower dimension that the engine supports. Adds none if there is no such dimension.
 template <class Complex>
 void add(const std::string& input, const Complex& complex, const ph::EngineFacts& engine,
          int max_dim) {

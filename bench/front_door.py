@@ -46,7 +46,7 @@ CPU_BOUND, MEMORY_BOUND = 1.2, 1.5  # the default bounds of --check
 CPU_FLOOR, MEMORY_FLOOR = 0.02, 8.0
 # Share of a door's start that is added to CPU_FLOOR, because the time of imports varies.
 START_NOISE = 0.25
-LENGTHS_AGREE = 1e-9  # relative: sums of the same lengths may be rounded in different orders
+LENGTHS_AGREE = 1e-9  # relative tolerance: the same lengths may be added in different orders
 PYTHON = """import numpy as np
 import libph as ph
 bars = ph.rips(np.load(FILE), max_dim=DIM, metric=METRIC, threads=1)
@@ -177,13 +177,13 @@ class Result:
         return CPU_FLOOR + START_NOISE * self.start
 
     def fault(self):
-        """A failure that does not depend on the bounds, in words, or None."""
+        """A description of a failure that does not depend on the bounds, or None."""
         if self.cost.outcome != "ok":
             return f"it did not end well: {self.cost.outcome}"
         return difference(self.bars, self.program_bars)
 
     def excess(self, cpu_bound, memory_bound):
-        """A violation of the bounds, in words, or None."""
+        """A description of how the result exceeds the bounds, or None."""
         beyond = []
         if self.cost.cpu > max(cpu_bound * self.program.cpu, self.program.cpu + self.cpu_floor):
             beyond.append(f"{self.cpu_ratio:.3g} times the CPU time ({self.cost.cpu:.3f} s, {PROGRAM} "
@@ -195,7 +195,7 @@ class Result:
 
 
 def difference(ours, theirs):
-    """The first difference between two summaries of bars in words, or None."""
+    """A description of the first difference between two summaries of bars, or None."""
     if ours is None or theirs is None:
         return "no bars were printed"
     for dim, (count, lengths) in theirs.items():

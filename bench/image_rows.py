@@ -28,8 +28,8 @@ def eight_bit(shape, generator):
 
 
 def smooth(shape, generator):
-    """A few waves with a little noise: features are tens of voxels wide, and about one voxel in
-    some hundreds is critical."""
+    """A few waves with a little noise: features are tens of voxels wide, and about one voxel in a
+    few hundred is critical."""
     axes = numpy.meshgrid(*[numpy.arange(n, dtype=float) for n in shape], indexing="ij", sparse=True)
     waves = sum(math.sin(1 + k) * numpy.sin(0.05 * (1 + k % 3) * sum((1 + (k + j) % 3) * x for j, x in enumerate(axes)))
                 for k in range(5))

@@ -17,8 +17,8 @@ PR_SET_THP_DISABLE = 41  # from <linux/prctl.h>; the setting survives execve
 
 @dataclass(frozen=True)
 class Limits:
-    """Limits of a run: CPU seconds, and bytes of private memory; None means no limit.
-    `small_pages`: the system provides memory in pages of 4 KiB, never of 2 MiB."""
+    """Limits of a run: CPU seconds, and bytes of private memory; None means no limit. If
+    `small_pages` is true, the system provides memory in pages of 4 KiB, never of 2 MiB."""
     seconds: int = None
     memory: int = None
     small_pages: bool = False
@@ -111,8 +111,8 @@ class Meter:
         return [min(runs, key=lambda r: r.cpu) if runs[-1].ok else runs[-1] for runs in taken]
 
     def _turn(self, command):
-        """Runs a command once, or, if it is short, several times until its share of the total time
-        is used."""
+        """Runs a command once. If the command is short, runs it several times until its share of
+        the total time is used."""
         runs = [self.run(command)]
         while runs[-1].ok and runs[0].cpu < SHORT and sum(r.cpu for r in runs) < self._together / self._repeat:
             runs.append(self.run(command))

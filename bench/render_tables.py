@@ -53,8 +53,8 @@ def cell(row, name):
 
 
 def caption(rows, root):
-    """The origin of the rows: script, machine, date and versions. If rows differ in these, the text
-    names the differences and the rows concerned."""
+    """The origin of the rows: script, machine, date and versions. If rows have different origins,
+    the text states each difference and the rows that it concerns."""
     sentences, first, usual = [], 1, []
     for origin, group in itertools.groupby(rows, lambda row: [row[name] for name in SOURCE]):
         if not (root / origin[0]).is_file():

@@ -104,11 +104,12 @@ SAMPLES = {sample.name: sample for sample in (
 
 @dataclass(frozen=True)
 class Row:
-    """One input of the table. Without a threshold, edges end at the enclosing radius."""
+    """One input of the table. Without a threshold, the enclosing radius is the length of the
+    longest edges."""
     source: str  # a sample to generate, or the name of a file in the data folder
     max_dim: int
     threshold: Optional[float] = None
-    limit: bool = False  # compared with the time to read and sort its edges
+    limit: bool = False  # true: also compared with the time to read and sort the edges
     peers: bool = True  # True: measured for the peers as well; False: for libph alone
     usual: bool = True  # measured if no rows are selected
 

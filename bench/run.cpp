@@ -31,7 +31,8 @@ int main(int argc, char** argv) {
     return 64;
   }
   const int out = std::atoi(argv[1]);
-  prctl(PR_SET_PDEATHSIG, SIGKILL);  // ends this process with its parent, which may be aborted
+  // Ends this process when its parent ends, even if the parent is aborted.
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
   const auto start = std::chrono::steady_clock::now();
   const pid_t child = fork();
   if (child == 0) {

@@ -20,7 +20,7 @@ report() { :; }
 with_cells() { :; }
 if $barcode --version --verbose | grep -q '^reports *built in'; then
   report() { printf -- '--report %s' "$out/$1.html"; }
-  with_cells() { printf -- '--representatives %s' "$1"; }  # the report draws them on the data
+  with_cells() { printf -- '--representatives %s' "$1"; }  # the report draws the cells on the data
 else
   echo "no pages to look at: npm could not install what bundles them; see $out/build.log"
 fi

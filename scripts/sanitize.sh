@@ -39,8 +39,8 @@ build() {
     { summary+=("$kind: not built"); return 1; }
 }
 
-# outputs KIND BUILD [LAUNCHER…]: runs the commands of tests/platforms and prints the line with
-# their number.
+# outputs KIND BUILD [LAUNCHER…]: runs the commands of tests/platforms, and prints the line that
+# states how many ran.
 outputs() {
   local kind=$1 status=0
   shift

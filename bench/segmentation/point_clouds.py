@@ -42,7 +42,7 @@ def decompressed(data, size):
                 raise ValueError("LZF: a reference before the beginning")
             if start + length <= len(result):
                 result += result[start : start + length]
-            else:  # the source range overlaps what it appends
+            else:  # the bytes to copy overlap the bytes that are appended
                 period = result[start:]
                 result += (period * (length // len(period) + 1))[:length]
     except IndexError:

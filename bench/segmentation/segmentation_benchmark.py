@@ -140,7 +140,7 @@ class Benchmark:
         }
 
     def grid_scores(self, truth, options):
-        """F of each frame when ph-segment has these options."""
+        """The score F of each frame when ph-segment runs with these options."""
         program = ours(self.arguments.build, f"--no-check --{truth} {options}")
 
         def f(path):
@@ -186,8 +186,8 @@ class Benchmark:
 
 
 def cross_validated(f, categories):
-    """Scores each category with the choice that is best on the other categories. @param f F of each
-    frame for each choice. Of equally good choices, the first is used."""
+    """Scores each category with the choice that is best on the other categories. @param f the score
+    F of each frame, for each choice. Of equally good choices, the first is used."""
     groups, chosen, scores = sorted(set(categories.values())), {}, {}
     of = lambda options, kept: segmentation_tables.mean(
         v for frame, v in f[options].items() if kept(categories[frame])

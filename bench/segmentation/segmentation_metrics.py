@@ -94,8 +94,8 @@ def outside(mask):
     while True:
         before = numpy.count_nonzero(seen)
         for area, blocked in ((seen, mask), (seen.T, mask.T)):
-            # In one dimension, the end of a row is next to the start of the following row. Both are
-            # outside the mask.
+            # In the flattened array, the last pixel of a row is next to the first pixel of the
+            # following row. Both are outside the mask.
             run = numpy.cumsum(blocked.ravel()).reshape(blocked.shape)
             reached = numpy.zeros(run[-1, -1] + 1, bool)
             reached[run[area]] = True
@@ -143,8 +143,8 @@ def boundary_scores(truth, segments, objects, count, pairs):
 
 
 def truth_of(labels, parts):
-    """The ground truth as numbers 0, 1, … of parts, or of objects, each of which consists of
-    parts."""
+    """The ground truth as numbers 0, 1, …: one number per part, or one number per object, which
+    consists of parts."""
     return dense(labels if parts else labels // FIRST_OBJECT, labels >= FIRST_OBJECT)
 
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """Makes the data in this folder, which pages of docs/ use: make.py. Needs only the standard
-library, and makes the same numbers each time."""
+library, and makes the same files each time."""
 import gzip
 import math
 import random
@@ -84,7 +84,7 @@ def hills():
 
 
 def waves(rng, count, samples):
-    """Cosine waves with noise, each one step later than the previous one."""
+    """Cosine waves with noise. Each wave lags one step behind the previous wave."""
     return [[math.cos(2 * math.pi * (5 * i / samples - k / count)) + rng.gauss(0, 0.2) for i in range(samples)]
             for k in range(count)]
 

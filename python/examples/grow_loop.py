@@ -10,7 +10,8 @@ import libph as ph
 
 
 def grow(X, steps, rate):
-    """Goes along the gradient of the longest bar of H1, within the unit square."""
+    """Moves the points so that the longest bar of H1 grows: follows the gradient of its length, and
+    keeps the points in the unit square."""
     for _ in range(steps):
         bars = ph.rips(X).filter(dim=1)
         d_lengths = np.zeros(len(bars))

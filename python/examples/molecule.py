@@ -26,7 +26,7 @@ def atoms_of(path, chains):
 def picture(path):
     import matplotlib.pyplot as plt
     places, radii = atoms_of(FILE, "DEFGH")
-    # The view along the axis of the ring, in which it is thinnest.
+    # The view is along the axis of the ring, the direction in which the ring is thinnest.
     middle = places.mean(axis=0)
     axes = np.linalg.svd(places - middle, full_matrices=False)[2]
     places = (places - middle) @ axes.T

@@ -32,7 +32,7 @@ def objects_of(cloud, **options):
 
 
 def grasp_of(scene, thing, gripper):
-    """In words."""
+    """Describes the grasp, or says why there is none."""
     if scene.meta.get("plane") is None:
         return "no plane, so nobody knows what is above"
     try:

@@ -18,7 +18,7 @@ SIDE = 32
 
 
 def patches_of(photo):
-    """Squares that do not overlap, row by row."""
+    """Squares of the photograph that do not overlap, row by row."""
     blocks = photo.reshape(512 // SIDE, SIDE, 512 // SIDE, SIDE).swapaxes(1, 2)
     return list(blocks.reshape(-1, SIDE, SIDE))
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""ph.alpha: compares bars with a SciPy triangulation whose values follow the definition; weights,
-surfaces, refused inputs."""
+"""ph.alpha: compares bars with those of a SciPy triangulation, whose values are computed by the
+definition; weights, surfaces, refused inputs."""
 import itertools
 import pickle
 

@@ -78,8 +78,8 @@ def test_metrics():
 
 
 def test_weights_by_hand():
-    """Two points at distance 4 are born at 1 and 3. For p = max, the balls meet at 4; for exponent
-    1, at 4 + 2."""
+    """Two points at distance 4 are born at 1 and 3. With the default exponent, infinity, the balls
+    meet at 4; with exponent 1, they meet at 4 + 2 = 6."""
     points, weights = [[0.0], [4.0]], [1.0, 3.0]
     assert ph.rips(points, weights=weights, max_dim=0).dgm(0).tolist() == [[1, INF], [3, 4]]
     assert ph.rips(points, weights=weights, weight_exponent=1, max_dim=0).dgm(0).tolist() == [

@@ -47,7 +47,8 @@ def test_keywords_of_others(call, hint):
 def test_a_keyword_like_no_other_has_no_hint():
     with pytest.raises(TypeError, match="argument 'xyzzy'$"):
         ph.rips(POINTS, xyzzy=1)
-    # The parameter that collects these arguments.
+    # `run` is the internal parameter that collects unknown arguments. It is refused like any other
+    # unknown name.
     with pytest.raises(TypeError, match="argument 'run'$"):
         ph.rips(POINTS, run=1)
 

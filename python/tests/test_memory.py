@@ -42,7 +42,7 @@ def peak_above_the_data(code):
     ("f8", "condensed"), ("f4", "condensed"), ("f8", "square"), ("f4", "square"),
     ("f8", "F order"), ("f8", "backwards")])
 def test_ten_million_distances_are_not_copied(dtype, layout):
-    """The distances take 76 MiB, condensed, as float64."""
+    """As condensed float64 numbers, the distances take 76 MiB."""
     taken = peak_above_the_data(f"""
         n = 4473
         if "{layout}" == "condensed":

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""bench/front_door.py: tests its judgement of known figures, and the doors of this build on small
+"""Tests bench/front_door.py: its verdicts on known figures, and the doors of this build on small
 inputs."""
 import csv
 import math

@@ -56,7 +56,7 @@ def picture_faults(text):
 
 
 def runs(language, code, page, compiled):
-    """True if a test runs the block: doctest, commands_in_pages.py, programs_in_pages.py."""
+    """True if doctest, commands_in_pages.py or programs_in_pages.py runs the block."""
     if language == "python":
         return ">>> " in code
     if language == "console":

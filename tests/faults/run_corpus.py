@@ -49,8 +49,8 @@ class Runner:
 
     def let_nobody_in(self):
         """Copies the programs to a place where another user can start them, because they may be in
-        a folder that only root can read. @return the reason why the user cannot; empty if the user
-        can."""
+        a folder that only root can read. @return the reason why no other user can start them; empty
+        if one can."""
         self.copies = tempfile.TemporaryDirectory()  # removed with the runner
         os.chmod(self.copies.name, 0o755)
         self.programs = {name: shutil.copy(path, self.copies.name)
@@ -76,7 +76,7 @@ class Runner:
         return fault
 
     def try_once(self, entry):
-        """@return what is wrong, and whether it is only a matter of time."""
+        """@return what is wrong, and True if the only fault is that the run took too long."""
         with set_up(entry) as (folder, options):
             if entry.unprivileged and os.geteuid() == 0:
                 os.chmod(os.path.dirname(folder), 0o755)

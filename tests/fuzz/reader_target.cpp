@@ -68,7 +68,8 @@ void run_reader(std::string_view name, std::string_view bytes) {
   if (!strict.content && bytes.size() % 2 != 0) return;
   // Bytes that are accepted strictly must also be accepted leniently, with the same meaning.
   ReadOptions taking{.allow_empty = true, .nan = NanPolicy::drop};
-  // This option declares a table to be a matrix, and is only for readers that read nothing else.
+  // This option declares a table to be a matrix, and applies only to readers that read nothing but
+  // matrices.
   if (name == "distances" || name == "correlations" || name == "npy_distances")
     taking.symmetrise = Symmetrise::lower;
   const Outcome lenient = attempt(reader, bytes, taking);

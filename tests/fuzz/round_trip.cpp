@@ -110,8 +110,8 @@ void write_and_read_again(const Barcode& barcode) {
     require(content_of(again(barcode, format)) == bars_of(barcode),
             "a barcode changes when it is written and read");
   }
-  // Only the first writing with six digits loses digits. Each dimension has a line, and therefore
-  // there may be only a few.
+  // Digits are lost only when the bars are written with six digits for the first time. Each
+  // dimension has a line in the file, and therefore there may be only a few dimensions.
   constexpr int kFewDimensions = 64;
   if (!barcode.empty() && barcode[barcode.size() - 1].dim > kFewDimensions) return;
   const Barcode rounded = again(barcode, BarcodeFormat::ripser);
@@ -133,8 +133,8 @@ void write_and_read_again(const Cloud& cloud) {
     return f.type == FieldType::int64 || f.type == FieldType::uint64;
   });
   if (wide) return;  // PLY has no integers of this size
-  // The first conversion to PLY splits fields and drops the organisation. Data that came from PLY
-  // stay the same.
+  // The first conversion to PLY splits fields, and forgets rows and columns. Data that came from
+  // PLY stay the same.
   const Cloud split = read_again(written(cloud, PlyData::little_endian), PlyData::little_endian);
   require(split.size() == cloud.size(), "points are lost in PLY");
   require(content_of(read_again(written(split, PlyData::little_endian), PlyData::little_endian)) ==

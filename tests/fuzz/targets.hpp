@@ -34,9 +34,11 @@ void run_barcode_arguments(std::string_view bytes);
 void run_distance_arguments(std::string_view bytes);
 void run_segment_arguments(std::string_view bytes);
 void run_vectorise_arguments(std::string_view bytes);
-/// What the program of a target for command lines prints for `--help all`; empty for other targets.
+/// The output of `--help all` of the program whose command line the target fuzzes; empty for
+/// targets that fuzz something else.
 std::string help_of(std::string_view target);
-/// Reads the input of ph-distance --groups; it is preceded by a digit, the number of barcodes.
+/// Reads the bytes as input of ph-distance --groups. A digit before this input states the number of
+/// barcodes.
 void run_distance_groups(std::string_view bytes);
 /// Reads the input of ph-vectorise --fitted, writes it and reads it again.
 void run_vectorise_fit(std::string_view bytes);

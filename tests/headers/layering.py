@@ -197,8 +197,8 @@ def room_cycles():
 
 
 def folder_of(file):
-    """The folder of a file. For a public header, this is its room, because its real folder is
-    chosen for users."""
+    """The folder of a file. For a public header, this is its room, because the folder of the header
+    was chosen for the convenience of users."""
     if "/include/" in str(file):
         return f"public headers of {room_of(file)}"
     return str(file.parent)

@@ -67,8 +67,8 @@ def test_known_answers():
 
 @pytest.mark.parametrize("axes", [2, 3, 4])
 def test_embedded_images_are_dual(rng, axes):
-    """Alexander duality: H_k of one construction equals H_(axes - 1 - k) of the other one, when it
-    is embedded."""
+    """Alexander duality: H_k of an image in one construction equals H_(axes - 1 - k) of the
+    embedded image in the other construction."""
     image = rng.random((6,) * axes)
     for one, other in ((cripser.computePH, tcripser.computePH),
                        (tcripser.computePH, cripser.computePH)):

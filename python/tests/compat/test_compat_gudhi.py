@@ -171,7 +171,7 @@ def test_weighted_trees_of_gudhi(gudhi_itself, seed):
     from gudhi.dtm_rips_complex import DTMRipsComplex
     from gudhi.weighted_rips_complex import WeightedRipsComplex
     rng = np.random.default_rng(seed)
-    # Some seeds give weights that differ by more than the distance of their points.
+    # For some seeds, two weights differ by more than the distance of their points.
     points, weights = rng.random((8, 2)), [0.2, 0.6][seed // 3] * rng.random(8)
     limit = [INF, 0.9][seed % 2]
     distances = squareform(pdist(points))

@@ -98,7 +98,8 @@ def test_num_edges():
     assert of_matrix(sparse.csr_matrix(distances), thresh=1)["num_edges"] == 6
     births = squareform(pdist(line))
     np.fill_diagonal(births, 0.5)
-    assert of_matrix(births)["num_edges"] == 10  # with births, ripser.py has no enclosing radius
+    # For a matrix with births, ripser.py computes no enclosing radius.
+    assert of_matrix(births)["num_edges"] == 10
     close = 1 + 2.0**-26
     nearly = np.array([[0, 1, 1], [1, 0, close], [1, close, 0]])
     assert of_matrix(nearly)["num_edges"] == 3 and of_matrix(nearly, dtype=float)["num_edges"] == 2
@@ -144,7 +145,7 @@ def test_n_perm(rng):
         for dgm, other in zip(found["dgms"], part["dgms"]):
             assert np.allclose(dgm, other)
     angles = ripser(rng.random((40, 7)), n_perm=12, metric="cosine")
-    # Exactly 0, in spite of rounding.
+    # These distances are exactly 0, in spite of rounding.
     assert not angles["dperm2all"][np.arange(12), angles["idx_perm"]].any()
     for n_perm in (0, None, 40):
         found = ripser(points, n_perm=n_perm)

@@ -38,7 +38,8 @@ def test_a_point_that_enters_beyond_the_threshold_never_dies():
 
 
 def test_the_point_that_is_near_to_all_may_be_late():
-    """The enclosing radius of this point holds only from the point's birth on."""
+    """The last point is near to all others but is born late. The enclosing radius that it gives is
+    valid only from its birth on."""
     matrix = np.array([[0, 2, 3, 2, 1], [2, 0, 2, 3, 1], [3, 2, 0, 2, 1], [2, 3, 2, 0, 1],
                        [1, 1, 1, 1, 5.0]])
     found = of_matrix(matrix)["dgms"]

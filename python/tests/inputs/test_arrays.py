@@ -40,7 +40,8 @@ class HasDlpack:
 
 
 class Tensor(HasArray):
-    """Like torch's tensors: a tensor with a gradient gives an array only after `detach`."""
+    """Behaves like torch's tensors: a tensor with a gradient can be read as an array only after
+    `detach`."""
 
     def __init__(self, array, gradient):
         super().__init__(array)
@@ -169,7 +170,8 @@ def test_memory_maps(tmp_path, mode):
 
 
 def test_a_memory_map_that_was_written_to(tmp_path):
-    """Pages that were written to are no longer pages of the file: they must not be dropped."""
+    """If pages of a memory map were written to, the file no longer has their content: they must not
+    be dropped."""
     image = mapped(np.zeros((64, 64, 64), dtype=np.uint8), tmp_path, "c")
     image[...] = np.random.default_rng(0).integers(0, 255, size=image.shape)
     expected = image.copy()

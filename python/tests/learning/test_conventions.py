@@ -192,8 +192,8 @@ def gauss_sum(a, b, weights_a, weights_b, bandwidth):
 
 
 def test_scale_space_kernel_of_gudhi(dgm):
-    """GUDHI's kernel is half of the sum over each diagram and its mirror image, which counts -1:
-    sigma = bandwidth² / 4, and a constant factor."""
+    """GUDHI's kernel adds the mirror image of each diagram with weight -1, and takes half of the
+    sum. It equals ours with sigma = bandwidth² / 4, up to a constant factor."""
     other = dgm[::2] + [0.03, 0.08]
     bandwidth = 0.7
     sides = [np.concatenate([bars, bars[:, ::-1]]) for bars in (dgm, other)]

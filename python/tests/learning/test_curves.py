@@ -79,8 +79,8 @@ def plain_euler(image, construction, t):
     # An odd coordinate is a unit interval.
     for corner in np.ndindex(*(2 * n + 1 for n in image.shape)):
         if construction == "vertices":
-            # Even coordinates are voxels, and odd ones the cells between them; the last two do not
-            # exist.
+            # Coordinates in the doubled grid: even ones are voxels, and odd ones are the cells
+            # between voxels. Cells after the last voxel do not exist.
             if any(c >= 2 * n - 1 for c, n in zip(corner, image.shape)):
                 continue
             around = [(c // 2, c // 2 + 1) if c % 2 else (c // 2,) for c in corner]

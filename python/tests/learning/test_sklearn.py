@@ -116,7 +116,7 @@ def labelled_clouds(rng, count):
 
 def test_pipeline_and_grid_search(rng):
     X, y = labelled_clouds(rng, 40)
-    # Threads within threads.
+    # The search and the first step of the pipeline both use threads.
     steps = make_pipeline(RipsPersistence(homology_dimensions=(1,), n_jobs=2),
                           PersistenceImage(resolution=5, infinity=2.0),
                           RandomForestClassifier(10, random_state=0))

@@ -15,7 +15,7 @@ EMPTY = np.empty((0, 2))
 
 @pytest.fixture(params=[0, 1, 7, 40])
 def dgm(request, rng):
-    # Rounded, because equal values are tested as well.
+    # Rounding creates equal values, which are tested as well.
     births = rng.uniform(-1, 1, request.param).round(1)
     return np.column_stack([births, births + rng.uniform(0, 2, request.param).round(1)])
 
@@ -110,7 +110,7 @@ def test_image_far_from_its_bars():
 
 
 def test_betti_curve(dgm):
-    # The steps of the range include the births and deaths.
+    # Each birth and each death is a step of the grid.
     found = _functions.betti_curve(dgm, (-1.5, 3.5), 51)
     grid = np.linspace(-1.5, 3.5, 51)
     assert found.tolist() == [sum(b <= t < d for b, d in dgm) for t in grid]
@@ -253,7 +253,7 @@ def test_what_is_no_diagram(data, words):
 def test_ranges():
     assert _ranges.range_of_values([EMPTY]) == (0, 1)
     assert _ranges.range_of_values([EMPTY, ENDLESS]) == (0, 1)
-    # An empty bar, which does not count.
+    # A bar of length 0 does not count.
     assert _ranges.range_of_values([np.array([[3.0, 3.0]])]) == (0, 1)
     assert _ranges.range_of_values([np.array([[3.0, np.inf]])]) == (2.5, 3.5)
     assert _ranges.ranges_of_image([EMPTY], None, None) == ((0, 1), (0, 1))

@@ -92,8 +92,8 @@ def test_the_order_of_all_is_free():
 
 
 def _actor(number, count, field, mine, others, to_whole, to_rank):
-    """The work of one process, which has a part, its loops, and a mailbox. The messages keep the
-    rounds of all processes in step."""
+    """The work of one process, which has one part, the loops of this part, and a mailbox. In each
+    round, every process sends a message to every other process, which keeps them in step."""
     part = ph.image_part(VOLUME, number, count, loops=True, threads=1)
     loops = ph.ImageLoops(part, field=field, threads=1)
     to_whole.put((number, part))

@@ -90,7 +90,7 @@ def test_joblib():
             assert parallel(joblib.delayed(of_points)(i) for i in range(4)) == [200] * 4
 
 
-# ---- the end and the beginning of Python
+# ---- interpreter shutdown and start-up
 
 
 def test_python_ends_while_a_daemon_thread_computes():

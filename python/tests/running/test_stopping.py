@@ -213,8 +213,8 @@ def test_progress_true_is_a_bar_of_tqdm(monkeypatch):
 
 
 def test_where_the_system_gives_no_thread():
-    """Without a second thread, the computation itself checks the time, its stop and signals, and
-    reports its progress."""
+    """Without a second thread, the computation itself checks the time, requests to stop and
+    signals, and reports its progress."""
     code = textwrap.dedent("""
         import os, resource, signal, threading, time
         import numpy as np

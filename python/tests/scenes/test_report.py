@@ -27,7 +27,7 @@ def parts(page):
 
 
 def differing(mine, its):
-    """The lines that differ, cut off after the beginning, which contains a name."""
+    """The lines that differ, cut to their first characters, which contain a name."""
     mine, its = mine.split("\n"), its.split("\n")
     return [(a[:120], b[:120]) for a, b in zip(mine, its) if a != b] + [len(mine)] * (
         len(mine) != len(its))
@@ -190,8 +190,8 @@ def test_pages_of_bars_alone(program, tmp_path):
         for page in (meta, expected):
             del page["provenance"], page["program"]
         assert meta == expected
-    # The report of a barcode that was read from a file also shows its data, because the file states
-    # how it was computed.
+    # A barcode that was read from a file can also be reported with its data, because the file
+    # states how the barcode was computed.
     weighted = ph.rips(POINTS, metric="manhattan")
     weighted.save(tmp_path / "bars.json")
     read = ph.read_barcode(tmp_path / "bars.json")

@@ -275,7 +275,7 @@ class Alpha(ProgramTest):
         self.write("circle.txt", text(circle))
         self.expect(0, "circle.txt", "--complex", "alpha", "--significance", "-o", "bars.json", "--quiet")
         bars = [bar for bar in json.loads(self.read("bars.json"))["bars"] if bar["dim"] == 1]
-        # Bobrowski, Skraba 2023: their constant A is 1/2 for alpha complexes.
+        # Bobrowski and Skraba (2023): their constant A is 1/2 for alpha complexes.
         logs = [math.log(math.log(bar["death"] / bar["birth"])) for bar in bars]
         shift = -0.5772156649015329 - 0.5 * sum(logs) / len(logs)
         for bar, l in zip(bars, logs):

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""Compares H0 of the data that ph-barcode reads, and its notes about the data, with the numbers
-before they were written to a file; shared by guesses.py and guesses_tables.py."""
+"""Tests H0 of the data that ph-barcode reads from a file, and its notes about the data. Compares
+them with the numbers from which the file was written. Shared by guesses.py and
+guesses_tables.py."""
 import math
 import os
 import sys

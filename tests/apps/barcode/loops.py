@@ -87,7 +87,7 @@ class Loops(ProgramTest):
         self.write("gaps.txt", "\n".join(lines) + "\n")
         (bar,) = self.loops("gaps.txt", "--nan", "drop")
         self.assertEqual(bar["loops"][0]["vertices"], [1, 2, 3, 5, 6, 7, 8, 9, 10, 11, 12, 13])
-        # A subsample of the points.
+        # Loops of a subsample of the points.
         points = ring(40)
         self.write("many.txt", text(points))
         (bar,) = self.loops("many.txt", "--subsample", "10")
@@ -98,12 +98,12 @@ class Loops(ProgramTest):
         self.assertAlmostEqual(
             loop["length"],
             sum(math.dist(points[a], points[b]) for a, b in zip(walk, walk[1:])))
-        # A subsample and left-out points together.
+        # Loops of a subsample if rows with NaN are left out.
         lines = text(points).splitlines()
         self.write("both.txt", "\n".join(["nan nan"] * 5 + lines) + "\n")
         (bar,) = self.loops("both.txt", "--subsample", "10", "--nan", "drop")
         self.assertEqual(bar["loops"][0]["vertices"], [v + 5 for v in loop["vertices"]])
-        # Copies of the points.
+        # Loops if each point occurs twice.
         self.write("twice.txt", text(points + points))
         for bar in self.loops("twice.txt"):
             self.assertLess(max(bar["loops"][0]["vertices"]), 80)
@@ -173,8 +173,8 @@ class Loops(ProgramTest):
         self.write("band.npy", files.array((2, 5), [1.0] * 5 + [3.0] * 5))
         bar = self.loops("band.npy", "--periodic", "1")[0]
         self.assertEqual(bar["loops"][0]["grid"], [[0, 0], [0, 2], [0, 4], [0, 6], [0, 8]])
-        # Representatives that are sets of voxels have no loops; the cycles of the same result have
-        # loops.
+        # A bar whose representative is a set of voxels has no loops. A bar of the same result whose
+        # representative is a cycle has loops.
         volume = files.array((3, 3, 3), [1.0 if (y, x) != (1, 1) else 2.0 for z in range(3)
                                  for y in range(3) for x in range(3)])
         bars = self.result(self.write("pipe.npy", volume), "--representatives", "voxels",

@@ -75,7 +75,8 @@ class Png(ProgramTest):
 
     @unittest.skipUnless(shutil.which("rsvg-convert"), "rsvg-convert is not installed")
     def test_it_is_the_svg(self):
-        """Bars, points and curves are where another program draws those of the SVG."""
+        """Bars, points and curves of the PNG are at the places where another program draws them
+        from the SVG."""
         number = random.Random(1).random
         self.write("points.txt", "".join(f"{number()} {number()}\n" for _ in range(150)))
         for kind in KINDS:
@@ -88,8 +89,8 @@ class Png(ProgramTest):
                 self.assertEqual(width, other_width)
                 self.assertLessEqual(abs(len(mine) - len(theirs)), 1)
                 for colour in (H0, H1):
-                    # The numbers on the left are left out, because the two programs use different
-                    # fonts.
+                    # The numbers on the left are not compared, because the two programs use
+                    # different fonts.
                     a, b = ({p for p in places(rows, colour) if p[0] > 120} for rows in (mine, theirs))
                     self.assertEqual(len(a) > 500, kind != "tree" or colour == H0)
                     for one, other in ((a, b), (b, a)):

@@ -24,8 +24,8 @@
 
 namespace {
 
-// Allocations are counted while `armed` is true. Allocation number `fail_at` fails, and so do all
-// from number `fail_from` on.
+// Allocations are counted while `armed` is true. Allocation number `fail_at` fails, and so does
+// each allocation from number `fail_from` onwards.
 std::atomic<bool> armed = false;
 std::atomic<long> calls = 0, live = 0;
 long fail_at = 0, fail_from = 0;
@@ -125,8 +125,10 @@ class Allocation : public testing::Test {
     return files;
   }
 
-  /// Runs with the chosen allocations failing. @param at the number of the allocation that fails.
-  /// @param from the first of the allocations that all fail. @return true if the run finished.
+  /// Runs with the chosen allocations failing. @param at the number of a single allocation that
+  /// fails.
+  /// @param from the number of the first allocation of those that all fail. @return true if the run
+  /// finished.
   static bool survives(const std::function<void()>& run, long at, long from) {
     fail_at = at;
     fail_from = from;

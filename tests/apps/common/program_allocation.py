@@ -172,8 +172,8 @@ def main():
         made = folder.outputs()
         folder.add("out.pcd.in", made["out.pcd"])  # a binary_compressed PCD file
         folder.add("out.png.in", made["out.png"])
-        # Most calls declare the options, and they are the same in every run of a program: all of
-        # them fail in the first case of each program.
+        # Most allocations are made while the options are declared, and they are the same in every
+        # run of a program. The first case of each program tests all of them.
         of_program = {}
         reports = REPORTS if has_page(BARCODE) else []
         if not reports:

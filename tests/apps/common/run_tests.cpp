@@ -43,7 +43,7 @@ TEST(Session, PassesOptionsOn) {
   EXPECT_EQ(kind_of([&] { session.context().poll(); }), ErrorKind::cancelled);
 }
 
-// ---- the bar, and output that must not share its line
+// ---- the progress bar, and output that must not share its line
 
 constexpr std::string_view kWipe = "\r\x1b[K";
 constexpr auto kBarIsThere = std::chrono::milliseconds(600);       // after the start of the run
@@ -150,7 +150,7 @@ TEST(Progress, MessagesNeverShareALineWithABar) {
   EXPECT_GT(bars, 0U) << "the two never met";
 }
 
-// ---- the bound of the heap
+// ---- the limit of the heap
 
 std::uint64_t data_limit() {
   rlimit data{};

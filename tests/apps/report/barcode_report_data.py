@@ -60,7 +60,7 @@ class Data(ReportTest):
         # The geometric mean of 1 and 8.
         self.assertEqual(self.report("c.txt").meta["tree"]["cut"], 2.83)
         self.write("c.txt", "0\n1\n2.1\n3.1\n")
-        self.assertEqual(self.report("c.txt").meta["tree"]["cut"], 1.1)  # there is no wide ratio
+        self.assertEqual(self.report("c.txt").meta["tree"]["cut"], 1.1)  # no ratio is large
         self.write("c.txt", "7\n")
         self.assertEqual(self.report("c.txt").meta["tree"]["cut"], 0)
 
@@ -323,7 +323,8 @@ class Data(ReportTest):
         self.assertNotIn("triangles_below", report.meta["cloud"])
 
     def test_the_default_cut_is_below_what_stands_out(self):
-        # The largest ratio of consecutive lengths, 0.01 to 0.0001, is far below the longest bar.
+        # The largest ratio of consecutive lengths, between 0.01 and 0.0001, is far below the
+        # longest bar.
         self.write("p.txt", "0\n0.0001\n0.0101\n0.0191\n0.5191\n1.5191\n")
         cut = self.report("p.txt", "--max-dim", "0").meta["tree"]["cut"]
         self.assertTrue(0.01 < cut < 0.5, cut)

@@ -108,8 +108,8 @@ TEST_F(Program, OptionsThatSayTheSameAreNoContradiction) {
 }
 
 TEST_F(Program, ASignatureWithoutMemoryIsNullAndTheRestIsThere) {
-  // Specks in the corners of a large cube form a single segment by distance, with a box that is far
-  // too large.
+  // Grouped by distance, specks in the corners of a large cube form a single segment, whose box is
+  // far too large.
   std::ofstream points(at("corners.xyz"));
   for (int i = 0; i < 400; ++i)
     points << 2.0 * (i % 2) << ' ' << 2.0 * (i / 2 % 2) << ' ' << 2.0 * (i / 4 % 2) + 1e-4 * i

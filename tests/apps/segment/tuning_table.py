@@ -57,7 +57,7 @@ def main():
                 checked += 1
                 if float(cell) != float(found):
                     faults.append(f"{option}, {method}: {cell} in the table, {found} in a run")
-    # Values that a run does not report, because the size of a voxel also depends on the points.
+    # A run does not report these values, because the size of a voxel also depends on the points.
     voxel = re.search(r"edge of a voxel, metres\s+\(default:\s+([\d.]+),\s+paper:\s+([\d.]+)\)", text)
     stated = tuple(table["--voxel"][method] for method in METHODS)
     if not voxel or stated != (voxel[1], voxel[2], voxel[1]):

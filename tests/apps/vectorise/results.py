@@ -41,7 +41,7 @@ class Results(ProgramTest):
             self.write(name, csv_of(bars))
 
     def table(self, *arguments, **options):
-        """The names of the columns, and by input the row of its numbers."""
+        """The names of the columns, and a dictionary from each input to the numbers in its row."""
         run = self.expect(0, *arguments, "--quiet", **options)
         self.assertEqual(run.stderr, "")
         header, *rows = csv.reader(io.StringIO(run.stdout))

@@ -77,7 +77,7 @@ def not_a_number():
 
 def infinite():
     for row, word in ((10, "inf"), (11, "-inf")):
-        for form in ("pcd", "ply"):  # as out of reach as a hole, and part of no segment
+        for form in ("pcd", "ply"):  # like a hole, the point is out of range and in no segment
             yield taken(row, form, word, PLACES[form][0].format(word), labels(0), "--max-range", "inf")
         for form in ("points", "off", "xyz", "pts"):
             yield refused(row, form, word, PLACES[form][0].format(word), "infinit")

@@ -212,8 +212,8 @@ void check_points(ChosenNumbers& chosen, const ph_options& options) {
     return ph_rips_points(data.data(), rows, columns, data.strides[0], data.strides[1], &options,
                           out);
   });
-  // Several inputs in one call: the result of each is the same as alone, or the call fails like the
-  // first one that fails.
+  // Passes several inputs in one call. Each gives the same result as alone, or the call fails in
+  // the same way as the first input that fails alone.
   const std::vector<const double*> clouds(2, numbers.data());
   const std::vector<std::int64_t> sizes(2, rows);
   std::array<ph_barcode*, 2> all{};

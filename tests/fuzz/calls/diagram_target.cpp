@@ -40,7 +40,7 @@ bool is_diagram(const Bars& bars) {
 
 /// The cost of matchings of bars, by the definition.
 struct Cost {
-  double order, ground;  ///< for infinite order, the cost is the largest of all
+  double order, ground;  ///< if infinite, the cost is the largest cost of all pairs
 
   long double apart(const Bar& a, const Bar& b) const {
     const auto between = [](long double x, long double y) { return x == y ? 0 : std::abs(x - y); };

@@ -16,8 +16,7 @@ namespace ph::test {
 using Integer = boost::multiprecision::cpp_int;
 using IntegerPoint = std::array<Integer, 3>;
 
-/// The unit 2^-bits, of which all doubles here are multiples; they are also multiples of its
-/// square.
+/// The unit 2^-bits: all doubles here are multiples of it, and thus also of its square.
 inline constexpr int kLeastBits = 540;
 
 inline int bits_of(double x) {

@@ -109,8 +109,8 @@ class PeriodicOracle {
     return simplex;
   }
 
-  /// Finds the images up to a distance from a point in the box. @return the index of the point
-  /// among them.
+  /// Finds the images that are at most this far from a point in the box. @return the index of the
+  /// point among them.
   std::size_t find_neighbours(std::size_t of, const Rational& squared) {
     neighbours_.clear();
     places_.clear();

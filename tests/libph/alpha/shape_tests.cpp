@@ -37,7 +37,7 @@ std::vector<Simplex> facets_of(const Simplex& simplex) {
   return facets;
 }
 
-/// The triangles that are in one or in more than two tetrahedra of a set, each with this number.
+/// The triangles whose number of tetrahedra in a set is not 2, each with this number.
 std::map<Simplex, int> surface_of(const std::set<Simplex>& set) {
   std::map<Simplex, int> sides;
   for (const Simplex& simplex : set)

@@ -138,7 +138,7 @@ class Limits(UnderLimit):
 
 
 class Alternatives(UnderLimit):
-    """The alternatives that a stopped run suggests do fit into the limit."""
+    """Tests that the alternatives which a stopped run suggests fit into the limit."""
     # Name, limit in MiB, least number of alternatives.
     ROWS = (("space.txt", 10, 3, "--max-dim", "2"),
             ("space.txt", 12, 3),
@@ -229,7 +229,8 @@ class System(ProgramTest):
 
     def test_failures_of_a_batch_do_not_add_up(self):
         once, often = self.heap_limit_after(1, -1), self.heap_limit_after(8, -1)
-        self.assertLess(abs(often - once), 2 * MIB)  # it depends on the memory in use at the start
+        # The limit depends on the memory in use at the start.
+        self.assertLess(abs(often - once), 2 * MIB)
         self.assertLess(often, 128 * MIB)
 
     def test_the_limit_of_the_user_stays(self):

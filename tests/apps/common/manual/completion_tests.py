@@ -21,7 +21,7 @@ def words(shown):
 
 
 class Completion:
-    """The tests of a shell, which each class below names."""
+    """The tests of one shell. Each subclass below names its shell."""
     shell = None
 
     @classmethod
@@ -111,8 +111,8 @@ class Completion:
         self.check(shell, "ph-barcode x --plot pa", ["of.svg"])
 
     def hidden(self, files):
-        """Files that the shell does not offer. Fish also offers files with another extension, after
-        the others."""
+        """The files that the shell hides: those that it does not offer. Fish hides none, because it
+        offers files with another extension as well, after the others."""
         return [] if self.shell == "fish" else files
 
     def test_the_first_word(self):

@@ -44,8 +44,9 @@ class Terminal:
         return shown
 
     def run(self, line):
-        """Types a command and waits until it is done. It prints a word that is typed in another
-        form: this distinguishes the answer from the echo."""
+        """Types a command and waits until it is done. The command prints a word that is typed in
+        a different form, which distinguishes the answer of the shell from the echo of the typed
+        text."""
         self.asked += 1
         self.type(line.encode() + b"; echo an''swer" + str(self.asked).encode() + ENTER)
         return self.read_until(b"answer%d\r?\n" % self.asked)
