@@ -5,12 +5,12 @@ each of them.
 
 plant_mutants.py [--jobs N] [--check] [NAME...]     (names of mutants; default: all)
 
-A mutant is killed if its test program fails or runs into the time limit. It counts as a failure if
-the tests pass or the mutant does not compile. So it does if its anchor (mutant.py) or the text to
-replace does not occur exactly once, because then the sources have changed and the mutant must be
-adapted. The exit code is 0 if all mutants were killed. --check builds nothing. It only tests that
-each mutant can be planted, including the mutants of program_mutants.py, and that each anchor has a
-mutant.
+A mutant is killed if its test program fails or runs into the time limit. It is a failure if the
+tests pass or the mutant does not compile. It is also a failure if the anchor of the mutant
+(mutant.py) or the text to replace does not occur exactly once, because then the sources have
+changed and the mutant must be adapted. The exit code is 0 if all mutants were killed. --check
+builds nothing. It only tests that each mutant can be planted, including the mutants of
+program_mutants.py, and that each anchor has a mutant.
 """
 import argparse
 import os

@@ -28,7 +28,7 @@ def boundary(chain, boundary_of, prime):
 
 
 def sum_of_loops(loops, period, prime):
-    """The chain of the edges of loops, which are simplices or, for images, cubes in doubled
+    """The chain of the edges of loops. Edges are simplices or, for images, cubes in doubled
     coordinates. @param loops pairs of vertices and a coefficient. @param period for each axis of an
     image, its length in doubled coordinates if it is periodic; None for simplices."""
     chain = {}

@@ -18,8 +18,8 @@ inline int seeds(int count) {
   return times ? std::max(1, static_cast<int>(count * std::atof(times))) : count;
 }
 
-/// True if a random test has met the cases that it is about more than `least` times. With reduced
-/// numbers of seeds, it is always true.
+/// True if the cases that a random test is about have occurred more than `least` times. With
+/// reduced numbers of seeds, it is always true.
 template <class Count>
 bool is_enough(Count count, Count least) {
   return count > least || seeds(100) < 100;

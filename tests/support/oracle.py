@@ -266,8 +266,8 @@ def distance(metric):
 
 
 def weighted_edge(exponent):
-    """The value at which the balls of two points meet, which are born at f and g and are at
-    distance d (Anai et al. 2019, with all values doubled)."""
+    """The value at which two balls meet that are born at f and g, where d is the distance of their
+    centres (Anai et al. 2019, with all values doubled)."""
     def joined(d, f, g):
         late = max(f, g)
         if exponent == "inf" or d == INF:

@@ -146,8 +146,8 @@ inline void check_voxel_sets(const Image& image, const CubicalOptions& options, 
       }));
       continue;
     }
-    // Only classes that are never filled may have a set without voxels, among classes that surround
-    // something.
+    // Among the classes that surround something, only those that are never filled may have a set
+    // without voxels.
     const bool may_be_hollow = !grid.has_loop() && bar.dim == grid.axes() - 1;
     if (!may_be_hollow || (bar.is_infinite() && has_chain)) {
       EXPECT_TRUE(found.empty());

@@ -27,8 +27,8 @@ Spans spans_of(const std::vector<Bars>& diagrams) { return {diagrams.begin(), di
 
 // ---- sliced Wasserstein
 
-/// The distance of two sets of numbers: the integral, over x, of the difference between how many
-/// numbers of each set lie below x.
+/// The distance of two sets of numbers: the integral over x of the absolute difference between the
+/// numbers of elements below x in each set.
 double between(std::vector<std::pair<double, int>> numbers) {
   std::ranges::sort(numbers);
   double sum = 0;

@@ -83,7 +83,7 @@ void check_tree(const MergeTree& tree, const std::vector<double>& births,
     if (bar.second < kInf) finite.push_back(bar);
   std::sort(bars.begin(), bars.end());
   EXPECT_EQ(bars, finite);
-  // The classes are all bars, in the order of the bars.
+  // There is one class for each bar, in the order of the bars.
   const std::vector<MergeTree::Class> classes = tree.classes();
   ASSERT_EQ(classes.size(), oracle.bars(0).size());
   for (std::size_t i = 0; i < classes.size(); ++i) {

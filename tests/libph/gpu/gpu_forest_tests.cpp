@@ -98,7 +98,7 @@ TEST_F(GpuForest, OfAMillionPoints) {
   }
 }
 
-// More points than one range of candidates and one tile of query points hold.
+// There are more points than fit into one range of candidates or one tile of query points.
 TEST_F(GpuForest, OfManyAxes) {
   for (const Index d : {9, 15, 16, 17, 33, 768}) {
     Generator random(static_cast<std::uint64_t>(d));

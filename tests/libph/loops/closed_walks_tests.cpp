@@ -159,7 +159,8 @@ TEST(ClosedWalks, OfImages) {
   EXPECT_TRUE(is_enough(count, 1000)) << count;
 }
 
-// On such an axis, two vertices may have several edges between them, but each step must exist.
+// On a short periodic axis, two vertices may have several edges between them, but each step must
+// exist.
 TEST(ClosedWalks, OfShortPeriodicAxes) {
   for (const Index n : {1, 2}) {
     const Image image{{n, 3}, Voxels(std::vector<double>(static_cast<std::size_t>(3 * n), 1.0))};

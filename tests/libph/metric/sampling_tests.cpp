@@ -175,8 +175,9 @@ TEST(SparseRipsFiltrations, KeepWhatTheyPromise) {
   EXPECT_TRUE(is_enough(fewer, std::size_t{5000})) << fewer;  // the test covers enough cases
 }
 
-// Computes the edges by the definition: the value at which the two balls meet, which stop growing
-// at their largest diameters. There is no edge if that value is too late.
+// Computes the edges by the definition. The balls of two points stop growing at their largest
+// diameters. The value of an edge is that at which its two balls meet. There is no edge if they
+// meet too late.
 TEST(SparseRipsFiltrations, HaveTheEdgesThatTheySay) {
   std::size_t missing = 0, late = 0;
   for_each_seed(500, [&](Generator& random, bool ties, std::int64_t) {

@@ -302,8 +302,7 @@ TEST(TreePlot, ManyClassesStaySmall) {
   }
 }
 
-/// The numbers of each line in path data, which is drawn by the commands 'M' and 'V', or 'M' and
-/// 'H'.
+/// The numbers of each line in path data. The commands 'M' and 'V', or 'M' and 'H', draw a line.
 std::vector<std::array<double, 3>> lines_of(const std::string& svg, char end) {
   const std::regex line(std::string("M([0-9.]+) ([0-9.]+)") + end + "([0-9.]+)");
   std::vector<std::array<double, 3>> lines;

@@ -171,7 +171,7 @@ TEST(WeightedRips, CollapseLeavesTheBarsAsTheyAre) {
   });
 }
 
-// Beyond the enclosing radius, nothing changes. Every vertex is born before.
+// Beyond the enclosing radius, nothing changes. Every vertex is born before this value.
 TEST(WeightedRips, TheDefaultThresholdIsEnough) {
   for_each_seed(3000, [](Generator& random, bool ties, std::int64_t field) {
     const Index n = random.integer(1, 8);

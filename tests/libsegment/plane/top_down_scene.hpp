@@ -165,8 +165,8 @@ inline void expect_right(const TopDownScene& scene, Method method) {
       points += count;
       if (label == 0) without += count;
     }
-    // Low points on the sides of a box may be taken for the plane, and if the box is cut by the
-    // border, the rest may be too small.
+    // Low points on the sides of a box may be taken for the plane. If the border of the picture
+    // cuts the box, the rest of the box may be too small.
     if (points >= 800) {
       EXPECT_LT(2 * without, points) << "box " << box << " without a label";
     }

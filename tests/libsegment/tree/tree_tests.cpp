@@ -283,7 +283,8 @@ TEST(DamagedTree, ContentsThatCannotBe) {
                      "coordinates"));
   EXPECT_TRUE(says(damaged([](SceneTree& t) { t.xyz[0] += 0.6F; }), "coordinates"));
   SceneTree pieces = segment(CloudView{stack().xyz(), {}}, {.method = Method::supervoxels}).tree;
-  // Too far for the base of an object, and this method looks through no openings.
+  // The point is too far away for the base of an object, and this method does not look through
+  // openings.
   pieces.xyz[0] += 0.05F;
   EXPECT_TRUE(says(refusal(tree_bytes(pieces)), "coordinates"));
   EXPECT_TRUE(says(damaged([](SceneTree& t) {

@@ -24,7 +24,7 @@ constexpr double kVoxel = 0.005, kMargin = 0.005;
 /// The points that are restored through the openings of a scene's objects.
 struct Found {
   std::vector<Index> points;        ///< the restored points
-  std::vector<std::uint32_t> to;    ///< the voxel that each of them joined
+  std::vector<std::uint32_t> to;    ///< the voxel that each restored point joined
   Points centroids;                 ///< the centroids of all voxels
   std::map<Met, std::size_t> what;  ///< for each kind of thing, the number of restored points
 };
@@ -94,7 +94,7 @@ TEST(Openings, EachVesselHasItsOwn) {
     voxels.insert(found.to[k]);
   }
   EXPECT_EQ(voxels.size(), 2U);
-  // Taken as one object, the two have no round rim.
+  // Taken as one object, the two vessels have no round rim.
   EXPECT_TRUE(find(scene).points.empty());
 }
 

@@ -72,7 +72,7 @@ def read_text(program, task, text):
             cell(program, float(limit) == task.at_most, "limit")
             value, lower = high, low
         value = value or "inf"
-        # In text, exact distances have no lower bound.
+        # In text output, no lower bound is stated for exact distances.
         unsaid = task.distance == "wasserstein" and task.error == 0 and not lower and value != "inf"
         found[i, j, int(dim)] = shortest(value), None if unsaid else shortest(lower or value)
     return found

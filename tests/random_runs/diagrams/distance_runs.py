@@ -44,7 +44,8 @@ def is_known(task, value, lower, exact, alone):
     if task.distance == "sliced":
         return value == lower and abs(value - exact) <= 1e-12 * exact + 1e-15 * alone + SMALL
     # Costs to the power of the order agree up to 1e-12 of their size, or up to 1e-14 of the cost of
-    # all bars unmatched; or up to 1e-300 of that cost, because powers of smaller numbers are 0.
+    # all bars unmatched. Differences below 1e-300 of that cost do not count, because powers of
+    # smaller numbers are 0.
     if max(exact, value) <= SMALL or alone == 0:
         return value <= SMALL
 

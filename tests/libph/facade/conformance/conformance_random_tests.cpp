@@ -43,7 +43,7 @@ TEST(RandomConformance, WideRipsCells) {
   });
 }
 
-/// The pairs that many threads compute, each of which takes one column at a time.
+/// The pairs computed by many threads, where each thread takes one column at a time.
 template <class F>
 std::vector<Pair> pairs_of_threads(const F& f, int max_dim, std::int64_t field, int threads,
                                    bool oldest_first = false) {
@@ -65,7 +65,7 @@ TEST(RandomConformance, AnyNumberOfThreads) {
     const auto check_threads = [&](const auto& f, int max_dim) {
       const auto oracle = pairs_of(f, max_dim, field, Engine::standard);
       EXPECT_EQ(pairs_of_threads(f, max_dim, field, threads), oracle);
-      // In this order, every column that can lose its pivot to another does.
+      // In this order, every column that can lose its pivot to another column does lose it.
       EXPECT_EQ(pairs_of_threads(f, max_dim, field, 1, true), oracle);
     };
     if (random.integer(0, 9) == 0) {
