@@ -27,11 +27,11 @@ VECTORISE, DISTANCE = "apps/vectorise/ph-vectorise", "apps/distance/ph-distance"
 class Command:
     """A command and its inputs. The names of output files begin with `out`."""
     words: list
-    # In addition to those of examples/data: bytes by name.
+    # Inputs other than the files of examples/data: maps names to bytes.
     inputs: dict = dataclasses.field(default_factory=dict)
     may_refuse: bool = False  # with exit code 64, if the complex lacks what is requested
-    # Values come from exp, log, pow, hypot or sin of the C library. Their last bits depend on the
-    # processor: glibc's results differ on a processor without fused multiply-add.
+    # True if values come from exp, log, pow, hypot or sin of the C library. Their last bits depend
+    # on the processor: glibc's results differ on a processor without fused multiply-add.
     of_library: bool = False
 
 

@@ -112,10 +112,10 @@ std::vector<EdgeRow> cocycles_of(const FlagComplex& complex, In&& in) {
   return cocycles;
 }
 
-/// The length of the shortest closed walk that passes edge `birth` once, otherwise uses edges that
-/// `may_use` allows, and agrees with `chain` on all `cocycles` when it is multiplied by the
-/// coefficient of `birth` in `chain`. Nothing if there is no such walk, or if too many cases would
-/// have to be examined.
+/// The length of the shortest closed walk with these properties: it passes edge `birth` once, its
+/// other edges satisfy `may_use`, and, multiplied by the coefficient of `birth` in `chain`, it
+/// agrees with `chain` on all `cocycles`. Nothing if there is no such walk, or if too many cases
+/// would have to be examined.
 inline std::optional<double> shortest_walk(const FlagComplex& complex, const EdgeRow& chain,
                                            std::size_t birth, const std::vector<bool>& may_use,
                                            const std::vector<EdgeRow>& cocycles, bool& gave_up) {

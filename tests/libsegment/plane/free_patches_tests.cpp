@@ -78,8 +78,8 @@ TEST(FreePatches, AreAFewNearOnesAndFarOnes) {
   table.add_squares(10, 0, 8);
   const std::map<Square, int> squares = table.squares();
   EXPECT_EQ(squares.size(), 24U);
-  // The squares are spread by their distance from the foot of the viewpoint: each quarter of all
-  // 464 squares has six of them.
+  // The chosen squares are spread over all distances from the foot of the viewpoint: each quarter
+  // of the 464 squares, sorted by distance, contains six chosen squares.
   const auto farness = [](const Square& s) { return std::hypot(s.first + 0.5, s.second + 0.5); };
   std::vector<double> of_all;
   for (int x = -10; x < 18; ++x)

@@ -185,7 +185,8 @@ class Check:
         require(plane["share"] >= 0.1, "a plane of less than a tenth of the points")
         margin = a.plane_distance or (0.006 if a.method == "paper" else 0.005)
         if a.method != "paper":
-            # The base of an object is within the margin of the plane, but not in its lowest fifth.
+            # The base of an object may be within the margin of the plane, but not in the lowest
+            # fifth of the margin.
             if a.method == "supervoxels":
                 require(not self.labels[kept & (height < 0.2 * margin * (1 - 1e-9))].any(), "a label on the plane")
             return None
@@ -329,8 +330,8 @@ class Check:
         require(np.max(apart) <= self.asked.spacing * (1 + 1e-9), f"a voxel is {np.max(apart)} from all seeds")
 
     def meetings(self, pairs, lengths, births, of_vertex):
-        """Checks the values at which segments meet: they lie between the values for edges that
-        certainly exist and for edges that may exist."""
+        """Checks the values at which segments meet. Each lies between the value for all edges that
+        may exist and the value for only the edges that certainly exist."""
         told = {(s["label"], n["label"]): n["meets_at"] for s in self.json["segments"] for n in s["neighbours"]}
         for far, sign in ((SURELY_ADJACENT, 1), (9, -1)):
             first = {}

@@ -77,7 +77,8 @@ class Voxels:
         sums = np.zeros((len(self.cells), 3))
         np.add.at(sums, self.of_point, inside)
         self.centroids = (self.cells + sums / self.counts[:, None]) * edge
-        # The division is exact if no number is rounded: few bits, divided by a power of two.
+        # The centroid is exact if no number is rounded: coordinates have few bits, and their sum is
+        # divided by a power of two.
         grain = inside * 2 ** 10
         rough = np.zeros(len(self.cells), bool)
         np.logical_or.at(rough, self.of_point, (grain != np.floor(grain)).any(axis=1))
