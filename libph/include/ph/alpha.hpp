@@ -14,9 +14,9 @@
 #include "ph/points.hpp"
 #include "ph/run_context.hpp"
 
-// The constructor of Alpha, and alpha_support, are in a library of their own, ph::alpha. That
-// library uses triangulations of CGAL, which are under the GNU General Public License; a program
-// that links ph::alpha is under that licence as well. Everything else is in ph::core.
+// The constructor of Alpha and the function alpha_support are in a separate library, ph::alpha. It
+// uses the triangulations of CGAL, which are under the GNU General Public License; a program that
+// links ph::alpha is under that licence as well. Everything else is in ph::core.
 
 namespace ph {
 
@@ -69,8 +69,8 @@ inline constexpr std::array names_of<AlphaOptions::Unit>{
 
 /// The alpha complex of points of R², R³ (or R¹): the simplices of their Delaunay triangulation. A
 /// simplex enters when the balls around its vertices, each cut to the Voronoi cell of its centre,
-/// meet. The bars are the bars of the growing union of balls. Their values are radii; measured in
-/// edge lengths, the bars would be twice as long.
+/// meet. The bars describe the growing union of these balls. Births and deaths are radii, which are
+/// half as large as the corresponding diameters.
 ///
 /// Any finite points are allowed. Coplanar and collinear points have the triangulation of their
 /// affine hull. An edge of value 0 joins a copy to the first point at the same place; a weighted
@@ -84,11 +84,11 @@ inline constexpr std::array names_of<AlphaOptions::Unit>{
 /// then compute the bars simplex by simplex, which takes several times as long.
 ///
 /// In a periodic space the balls grow around a torus, or around a cylinder if not all axes close
-/// up. Any number of points is allowed, even one. A cell is still named by its points, although one
-/// point may occur several times in it (an edge of a point with its own image is [v, v]) and two
-/// cells may have the same points. Coordinates of axes that close up, and the lengths of these
-/// axes, are rounded to multiples of a power of two (at most 2^-50 of the diagonal of the box),
-/// which makes translates equal to the last bit; numbers that already are such multiples do not
+/// up. Any number of points is allowed, even one. A cell is still named by its points. One point
+/// may occur several times in a cell (the edge from a point to its own periodic image is [v, v]),
+/// and two cells may have the same points. Along axes that close up, coordinates and lengths are
+/// rounded to multiples of a power of two, which is at most 2^-50 of the diagonal of the box.
+/// Translates are therefore equal to the last bit. Numbers that already are such multiples do not
 /// change. Points that are the same modulo the lengths are copies. On a torus the complex ends with
 /// the Betti numbers 1, 3, 3, 1; in the plane, 1, 2, 1.
 ///
@@ -127,8 +127,9 @@ class Alpha {
   /// Makes every simplex, unless this was done before. The simplices take about 5 kB per point of
   /// R³ and stay with the filtration. Thread-safe. @throws Error (resource) and (cancelled).
   void prepare(const RunContext& context) const;
-  /// This complex, listed simplex by simplex, in the form that other parts of libph take. Made by
-  /// `prepare` or by the first call. Values are squares in units that are a power of two.
+  /// This complex as a list of simplices, in the form that other parts of libph use. The list is
+  /// made by `prepare` or by the first call. Its values are squared radii, in a unit that is a
+  /// power of two.
   const ExplicitComplex& listed() const;
 
   int top_dim() const { return top_dim_; }

@@ -55,10 +55,11 @@ class InputChain {
   std::span<const std::int64_t> coefficients_;
 };
 
-/// The representative to compute with each bar, which shows where the bar is.
+/// The kind of representative to compute for each bar. A representative shows where in the data the
+/// bar lies.
 enum class Representatives {
   none,
-  cycles,    ///< a cycle born with the bar that is a boundary from its death on
+  cycles,    ///< a cycle that is born with the bar and becomes a boundary at its death
   cocycles,  ///< a cochain, zero before the birth, whose coboundary is first non-zero at the death
   /// Images only. Bars of H0 get the voxels of the dying component just before it dies. Bars of the
   /// second highest dimension get the voxels of the hollow just after its birth. All others get a
@@ -151,8 +152,8 @@ class Barcode {
                   std::span<const Index> death_voxel);
   /// Sorts the bars into the order that the class promises. @throws Error (resource, cancelled).
   void sort(const RunContext& context = default_context());
-  /// Bytes that have to move to make room for that many more bars, numbers, coefficients and
-  /// voxels. During the move they exist twice.
+  /// The number of bytes that must be moved to make room for so many more bars, numbers,
+  /// coefficients and voxels. During the move, these bytes exist twice.
   std::size_t bytes_moved_for(std::size_t bars, std::size_t numbers, std::size_t coefficients = 0,
                               std::size_t voxels = 0) const {
     const auto moved = [](const auto& all, std::size_t more) {
@@ -161,7 +162,8 @@ class Barcode {
     return moved(bars_, bars) + moved(cells_, bars) + moved(numbers_, numbers) +
            moved(coefficients_, coefficients) + moved(voxels_, voxels);
   }
-  /// Bytes that the barcode holds; reserved room is not counted, because it is not touched yet.
+  /// The number of bytes that the barcode holds. Reserved memory is not counted, because it has not
+  /// been touched yet.
   std::size_t bytes() const {
     return bars_.size() * sizeof(Bar) + cells_.size() * sizeof(Cells) +
            chains_.size() * sizeof(Chain) +

@@ -64,18 +64,18 @@ class Cubical {
   explicit Cubical(const Image& image, const CubicalOptions& options = {},
                    const RunContext& context = default_context());
 
-  /// Makes the table of cells, unless it exists. The table stays with the filtration and counts in
-  /// the budget of the context that the filtration was built with. Sorting takes 32 more bytes per
-  /// voxel; `context` limits the memory, receives the progress and can stop the work. O(cells).
-  /// Thread-safe.
+  /// Makes the table of cells, unless it exists. The filtration keeps the table, which counts
+  /// against the budget of the context that the filtration was built with. Sorting takes 32 more
+  /// bytes per voxel; `context` limits the memory, receives the progress and can stop the work.
+  /// O(cells). Thread-safe.
   /// @throws Error (resource), also on more than 2^32 - 2 voxels, and Error (cancelled); after
   ///         either error, another call can try again.
   void prepare(const RunContext& context) const;
 
   int top_dim() const { return dim_; }
   std::uint32_t key(const Cell& c) const { return c.key; }
-  /// Defined in ph/custom.hpp. The first call does the work of `prepare`, unless that was called,
-  /// with the context of the construction.
+  /// The value at which a cell enters; defined in ph/custom.hpp. If `prepare` was not called
+  /// before, the first call does its work, with the context that the filtration was built with.
   /// @throws Error (resource) and (cancelled) in that case.
   inline double value(const Cell& c) const;
   static bool precedes(const Cell& a, const Cell& b) {
@@ -92,11 +92,11 @@ class Cubical {
   std::size_t voxel_bytes() const { return voxels_.bytes(); }
   /// Number of vertices of the grid, including those that never enter: voxels (V) or corners (T).
   std::size_t vertex_count() const;
-  /// The place of a vertex among all vertices in C order.
+  /// The number of a vertex, where all vertices are counted in C order.
   std::size_t vertex_number(const Cell& vertex) const;
 
-  // The members that engines call are defined in ph/custom.hpp, like `value`. The first call may
-  // throw and takes O(cells), as with `value`.
+  // Engines call the following members, which are defined in ph/custom.hpp. As with `value`, the
+  // first call may throw and takes O(cells) time.
   template <class Visit>
   void for_each_cell(int dim, Visit&& visit) const;
   template <class Visit>
@@ -115,7 +115,7 @@ class Cubical {
   struct Table;
   struct Lazy;
   inline const Table& table() const;
-  /// The first thread to come makes the table; the others wait.
+  /// The first thread that needs the table makes it, while the others wait.
   const Table& make_table(const RunContext& context) const;
   Table new_table(const RunContext& context) const;
   /// Fills the layers between (V) or around (T) the voxels along an axis.

@@ -62,8 +62,8 @@ ExplicitComplex listed(const F& filtration, const RunContext& context = default_
 /// threads compute. @throws Error (usage) if its name is taken.
 template <class E>
 void add_engine();
-/// Adds an engine to a complex of your own, which otherwise has the engines for any filtration. To
-/// be called after `add_engine`.
+/// Adds an engine to a complex of your own, which otherwise has the engines for any filtration.
+/// Call `add_engine` first.
 template <class E, Filtration F>
 void add_engine_for();
 

@@ -113,7 +113,8 @@ concept SlottedFiltration = Filtration<F> && requires(const F& f, const typename
 };
 
 /// Capability: some data are made when a cell, facet or value is first asked for, which takes time
-/// and memory. A function with its own context has the data made beforehand, by prepare_cells.
+/// and memory. A function that has its own context calls prepare_cells first, which makes the data
+/// within the limits of that context.
 template <class F>
 concept LazyFiltration = Filtration<F> && requires(const F& f, const RunContext& context) {
   /// Makes these data, unless they exist. `context` limits, watches and stops the work; it need not

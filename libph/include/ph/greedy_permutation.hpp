@@ -33,7 +33,7 @@ struct GreedyPermutation {
   std::vector<std::uint32_t> ascending() const;
 };
 
-// Both functions take O(n k) distances for k points of n and O(n) memory.
+// To choose k of n points, both functions compute O(n k) distances and take O(n) memory.
 //
 // The quality of a subsample: Let e be its covering radius, and let the triangle inequality hold.
 // The Rips barcodes of the entire set and of the subsample can be matched such that the bars of the

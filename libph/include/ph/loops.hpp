@@ -27,7 +27,7 @@ namespace ph {
 /// The choice is made by counting steps, never by time: the result is a function of the input.
 ///
 /// Takes O(edges up to the last birth) memory and at most a few times 10^8 steps. If the memory
-/// limit does not allow it, loops stay untightened, if necessary even without lengths.
+/// limit does not allow this, loops are not tightened, and may even have no lengths.
 ///
 /// @param cycles the bars of the complex, computed with Representatives::cycles, or with ::voxels,
 ///        where only bars with a cycle get loops. @param options the options that the bars were

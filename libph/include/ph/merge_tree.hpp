@@ -48,11 +48,11 @@ struct MergeTree {
   /// For each vertex, the vertex that gave birth to its component in the sublevel set of `value`
   /// (after all merges at values <= value); -1 for a vertex that has not entered.
   std::vector<Index> components(double value) const;
-  /// The basins that are left after all merges except those that separate two basins (see
-  /// Merge::separates). For each vertex, a vertex of its basin, the same one for the entire basin;
-  /// -1 for a vertex that never enters. A vertex belongs to the side from which the spanning forest
-  /// reaches it, which makes a basin grow until it meets another one, as in ToMATo (Chazal, Guibas,
-  /// Oudot & Skraba 2013). O(vertices); every cut is as quick as the first.
+  /// Performs all merges except those that separate two basins (see Merge::separates). Returns, for
+  /// each vertex, a vertex that stands for its entire basin; -1 for a vertex that never enters. A
+  /// vertex belongs to the side from which the spanning forest reaches it, which makes a basin grow
+  /// until it meets another one, as in ToMATo (Chazal, Guibas, Oudot & Skraba 2013). O(vertices);
+  /// every cut is as quick as the first.
   std::vector<Index> basins(double min_persistence, Index min_size = 1) const;
   /// A class of H0: the component that a vertex gave birth to, until it merges into an older
   /// component.

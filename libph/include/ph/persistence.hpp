@@ -44,7 +44,7 @@ struct Options {
   /// different cell of the same value may be named; zero-length bars and cocycles exclude a
   /// collapse.
   Collapse collapse = Collapse::automatic;
-  /// Bars with death - birth <= this are left out; < 0: keeps all bars.
+  /// Bars with death - birth <= this number are left out; a negative number keeps all bars.
   double min_persistence = 0;
   Representatives representatives = Representatives::none;  ///< chains that come with the bars
   /// True if bars have their birth and death cells, which takes time and memory.
@@ -103,8 +103,8 @@ struct RunPlan {
 /// @throws as `persistence`.
 RunPlan plan(const AnyComplex& complex, const Options& options = {},
              const RunContext& context = default_context());
-/// Makes the data that the plan needs, which `run` would do otherwise. @throws Error (resource,
-/// cancelled); for a Rips filtration as Rips::graph.
+/// Makes the data that the plan needs; if `build` is not called, `run` makes them. @throws Error
+/// (resource, cancelled); for a Rips filtration as Rips::graph.
 void build(const AnyComplex& complex, const RunPlan& plan,
            const RunContext& context = default_context());
 /// Computes as planned. @param plan a plan for this complex. @throws as `persistence`.

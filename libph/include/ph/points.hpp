@@ -176,7 +176,8 @@ class WholeRows {
 ///         short for one point.
 Points delay_embedding(PointsView series, Index dimension, Index delay = 1);
 
-/// The largest absolute value of a coordinate, ignoring NaN; 0 if there is no other coordinate.
+/// The largest absolute value of a coordinate, ignoring NaN; 0 if every coordinate is NaN or there
+/// is none.
 double largest_coordinate(PointsView points);
 
 }  // namespace ph

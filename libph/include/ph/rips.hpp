@@ -23,9 +23,9 @@ class RipsGraph;
 /// Options that define a Vietoris-Rips filtration. They do not decide the form in which it is held
 /// while its homology is computed: see RipsForm.
 struct RipsOptions {
-  /// Largest distance at which two points are joined, inclusive. By default: the enclosing radius
-  /// min_i max_j d(i,j) if all distances are known (beyond it only one component is left, and the
-  /// barcode is complete), and no limit for sparse distances.
+  /// Largest distance at which two points are joined, inclusive. If all distances are known, the
+  /// default is the enclosing radius min_i max_j d(i,j): beyond it only one component is left,
+  /// which means that the barcode is complete. For sparse distances there is no limit by default.
   std::optional<double> threshold = std::nullopt;
   PointDistance distance = PointDistance::euclidean;  ///< for points
   double minkowski_p = 2;                             ///< exponent of PointDistance::minkowski
@@ -48,7 +48,7 @@ struct RipsOptions {
   std::optional<GreedyLimits> subsample = std::nullopt;
   /// Epsilon > 0 selects the sparse Rips filtration instead: it has fewer edges, and its bars are
   /// born and die later by a factor of at most 1 + epsilon, see SparseRips. It needs all distances
-  /// and the triangle inequality, and allows no births. Its default threshold is the value from
+  /// and the triangle inequality, and allows no births. Its default threshold is the least value at
   /// which only one component is left.
   std::optional<double> approximation = std::nullopt;
   /// True: equal points become one vertex, named by the first of them, unless they have births. All
@@ -72,7 +72,7 @@ inline constexpr std::tuple members_of<RipsOptions>{
     Member{"device", &RipsOptions::device},
 };
 
-/// The view that an engine has of a Rips filtration before any form of it is made.
+/// The facts about a Rips filtration that an engine can use before any form of it is made.
 struct RipsInput {
   Index size;                        ///< the largest possible number of vertices
   std::optional<PointsView> points;  ///< empty for a filtration of distances

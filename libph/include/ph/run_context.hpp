@@ -23,8 +23,8 @@ class MemoryBudget final : public std::pmr::memory_resource {
   static constexpr std::size_t kUnlimited = SIZE_MAX;
 
   explicit MemoryBudget(std::size_t limit_bytes = kUnlimited) : limit_(limit_bytes) {}
-  /// A budget inside another one, which must outlive it: memory taken here counts in both, and both
-  /// limits hold.
+  /// A budget inside another one, which must outlive it: memory taken here counts against both
+  /// limits.
   explicit MemoryBudget(MemoryBudget& parent) : parent_(&parent), limit_(kUnlimited) {}
   MemoryBudget(const MemoryBudget&) = delete;
   MemoryBudget& operator=(const MemoryBudget&) = delete;
@@ -60,7 +60,8 @@ class MemoryBudget final : public std::pmr::memory_resource {
   std::atomic<std::size_t> peak_{0};
 };
 
-/// Counts memory from another source (such as a mapped file) in a budget during its lifetime.
+/// Counts memory from another source, such as a mapped file, against a budget as long as this
+/// object exists.
 class MemoryClaim {
  public:
   /// @throws Error (resource) if `bytes` more bytes would exceed the limit.
@@ -96,7 +97,7 @@ struct Progress {
 /// object that was built with it.
 struct RunContext {
   RunContext() = default;
-  /// A context whose memory counts in another budget, which must outlive it.
+  /// A context whose memory counts against another budget as well, which must outlive the context.
   explicit RunContext(MemoryBudget& parent) : memory(parent) {}
 
   std::stop_token stop;                              ///< polled often; see `poll`

@@ -121,8 +121,8 @@ struct PermutationTest {
   double loss = 0;
 };
 
-/// Tests by distances if groups of barcodes differ: it shuffles the labels and compares the mean
-/// distance within groups. Two groups or more.
+/// Tests whether groups of barcodes differ: compares the mean distance within groups with the mean
+/// distances that result when the labels are shuffled.
 ///
 /// Source: Robinson, Turner, Hypothesis testing for topological data analysis, 2017. O(shuffles ·
 /// n²); threads share the shuffles.

@@ -24,13 +24,13 @@ struct BarcodePage {
   std::optional<PointsView> points = {};
   /// The numbers by which the cells of the barcode name the points; empty: 0, 1, 2, ….
   std::span<const Index> point_ids = {};
-  /// True if the edges at a distance are all pairs of points that are no farther apart: then the
-  /// page finds the edges itself.
+  /// True if the edges up to each distance are exactly the pairs of points that are no farther
+  /// apart. The page then finds the edges itself.
   bool is_euclidean = false;
   bool has_axes_of_space = false;   ///< true if the first axis of an image with three axes is x
   const ShownTree* tree = nullptr;  ///< tree of the complex; null: not shown
   bool negated = false;             ///< values are minus those of the data; an image says so itself
-  /// Notes about anything that is not shown are added.
+  /// The origin of the page's contents; write_page adds notes about anything that is not shown.
   Provenance provenance = {};
 };
 

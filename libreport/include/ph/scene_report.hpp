@@ -17,7 +17,8 @@ struct ScenePage {
   /// The command for another cut, "{cut}" standing for its value; empty: the page does not show
   /// one.
   std::vector<std::string> cut_command = {};
-  /// The description of the input and notes on the method are added.
+  /// The origin of the page's contents; write_page adds the description of the input and notes on
+  /// the method.
   Provenance provenance = {};
 };
 

@@ -30,8 +30,8 @@ struct Standing {
 class LabelTracker {
  public:
   /// @param patience how many frames an unseen object is remembered, >= 0.
-  /// @param cell edge of the cubes that compare clouds without an organisation, metres, >
-  /// 0. @throws Error (usage) on other values.
+  /// @param cell edge, in metres, of the cubes that are compared in unorganised clouds; above 0.
+  /// @throws Error (usage) on other values.
   explicit LabelTracker(int patience = 5, double cell = 0.01);
 
   /// Takes the next frame of a sensor with a fixed raster: places are pixels.
@@ -41,7 +41,8 @@ class LabelTracker {
   /// none.
   std::vector<std::uint32_t> update(std::span<const std::uint32_t> labels);
   /// Takes the next frame as a result of ph::segment::segment. If the cloud is unorganised, places
-  /// are cubes of space, whatever its voxels are: the sensor must stand still.
+  /// are cubes of space whose size does not depend on the voxels of the scene; the sensor must then
+  /// stand still.
   /// @return for each segment the number of its object: the object of label i + 1 is at i.
   /// @throws Error (bad_data) if the cut does not belong to this scene.
   std::vector<std::uint32_t> update(const SceneTree& scene, const SceneCut& cut);
@@ -60,8 +61,8 @@ class LabelTracker {
     int unseen = 0;      // number of frames in a row without it
     bool is_new = true;  // true if it is first seen in this frame
     Standing is = {};    // `segment` holds the number of an object here
-    Standing said = {};  // the last frames' answer, if it differs
-    int times = 0;       // number of frames in a row with that answer
+    Standing said = {};  // what the last frames showed, if it differs from `is`
+    int times = 0;       // number of frames in a row that showed `said`
   };
   std::vector<Place> cubes(const SceneTree& scene, const SceneCut& cut) const;
   std::vector<std::uint32_t> match(std::vector<Place> places, std::size_t things,

@@ -145,9 +145,9 @@ struct CutOptions {
   friend bool operator==(const CutOptions&, const CutOptions&) = default;
 };
 
-/// How the voxels of a scene join (`merge_tree`: each merge with its value, the edge that joined,
-/// sizes and births), and the data of the scene that make segments of a cut. It refers to nothing
-/// outside itself.
+/// The merge tree of a scene, which records how its voxels join (each merge with its value, its
+/// edge, sizes and births), and all data of the scene that are needed to turn a cut into segments.
+/// It refers to nothing outside itself.
 struct SceneTree {
   Method method = Method::surface;
   double voxel = 0;            ///< edge of a voxel, metres
@@ -158,7 +158,8 @@ struct SceneTree {
   /// The planes that bound the scene: first the removed planes, beginning with `plane`, then the
   /// planes found among the components (boards, walls). At most kMostSurfaces.
   std::vector<SceneSurface> surfaces;
-  /// Method surface: nearest first; empty if too little of a supporting plane was visible.
+  /// For method surface: the noise at several ranges, nearest range first. Empty if too little of
+  /// the supporting plane was visible.
   std::vector<NoiseAt> noise;
   Index removed = 0;     ///< number of surfaces that were removed, with everything behind them
   Index width = 0;       ///< columns of the cloud; points of an unorganised cloud
@@ -166,7 +167,7 @@ struct SceneTree {
   CutOptions first_cut;  ///< the cut of the segmentation that made the tree
   std::size_t cloud_size() const { return static_cast<std::size_t>(width * height); }
 
-  // For each point that has a vertex, in the order of the cloud.
+  // The next three members describe the points that have a vertex, in the order of the cloud.
   std::vector<Index> points;                   ///< its number in the cloud, ascending
   std::vector<std::uint32_t> vertex_of_point;  ///< its vertex
   std::vector<float> xyz;                      ///< its coordinates
@@ -175,7 +176,8 @@ struct SceneTree {
   /// none.
   std::vector<std::uint8_t> removed_with;
 
-  // For each vertex, that is, each voxel in the order of the grid (z slowest).
+  // The next four members describe the vertices, which are the voxels in the order of the grid (z
+  // slowest).
   std::vector<Vec3> cells;  ///< whole numbers: the corner of the voxel, divided by the voxel's edge
   Points vertices;          ///< centroids, one per row
   Points normals;  ///< not paper: unit normals, one per row, NaN where there is none; else 0 rows

@@ -14,9 +14,9 @@
 #include "ph/scene_tree.hpp"
 
 /// Segmentation of RGB-D scenes by persistent homology. All lengths are in metres. Method paper
-/// knows the unit only through the defaults of its options, which is why it accepts any other unit
-/// if all lengths have it. The other methods also use the unit when they join parts behind an
-/// occluder that hides less than 15 cm.
+/// depends on the unit only through the defaults of its options; it therefore accepts any other
+/// unit, if all lengths are given in that unit. The other methods also use the unit when they join
+/// parts behind an occluder that hides less than 15 cm.
 namespace ph::segment {
 
 /// The parts of a cloud that the pipeline reads: plain arrays, owned by the caller.
@@ -56,7 +56,7 @@ struct SegmentOptions {
   /// Methods surface and supervoxels: the noise of depth grows with the square of the range, and so
   /// does the margin of the plane. At a range of one metre, half the margin is at least this many
   /// metres (>= 0) and at least four standard deviations of the noise that is found; 0: the margin
-  /// is plane_distance everywhere. A plane_distance that is given and smaller takes precedence.
+  /// is plane_distance everywhere. If a smaller plane_distance is given, it takes precedence.
   double plane_noise = 0.005;
   /// Position of the sensor. By default it is where the pixels' rays of an organised cloud meet, if
   /// this can be told and differs from the cloud's viewpoint; else it is the cloud's viewpoint.
@@ -100,7 +100,7 @@ struct SegmentOptions {
   }
 };
 
-/// The points that one stage left, and the time it took.
+/// One stage of the pipeline: the number of points that it left, and the time that it took.
 struct Stage {
   std::string_view name;
   Index points = 0;    ///< points (from the voxel grid on, voxels) after the stage

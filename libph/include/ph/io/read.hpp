@@ -233,10 +233,11 @@ struct BoundaryInput {
   CellNamer namer() const;
 };
 
-/// PHAT's boundary matrices over Z/2. Text: one cell per line with its dimension, then the indices
-/// of its facets. Binary: int64 little endian: number of cells, then the dimension, number of
-/// facets and facets of each cell. Indices count from 0 and name earlier columns, ascending. Also
-/// takes DIPHA's weighted boundary matrices, whose columns may come in any order.
+/// PHAT's boundary matrices over Z/2. The text has one cell per line: its dimension, then the
+/// indices of its facets. The binary form has int64 numbers, little endian: the number of cells,
+/// then for each cell its dimension, the number of its facets, and the facets. Indices count from 0
+/// and name earlier columns, ascending. Also takes DIPHA's weighted boundary matrices, whose
+/// columns may come in any order.
 /// @param values_path a file with one value per cell: text, or float64 little endian; if empty, the
 /// value of a cell is its position.
 BoundaryInput read_phat(const std::filesystem::path& path,

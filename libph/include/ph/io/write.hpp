@@ -107,7 +107,8 @@ struct BarcodeFormatInfo {
 
 /// All formats, in the order of BarcodeFormat.
 std::span<const BarcodeFormatInfo> barcode_formats();
-/// The name of a format on the command line, and the reverse.
+/// The name of a format on the command line, and the format with a given name, or nothing if there
+/// is none.
 std::string_view barcode_format_name(BarcodeFormat format);
 std::optional<BarcodeFormat> barcode_format_named(std::string_view name);
 /// The format that a file name's extension stands for (.csv, .json, .ripser, .pers, .dipha or
@@ -119,9 +120,9 @@ std::optional<BarcodeFormat> barcode_format_of_path(std::string_view path);
 void write_barcode(OutputFile& file, const Barcode& barcode, BarcodeFormat format,
                    const BarcodeInfo& info = {});
 
-/// Reads a barcode file of any format, also compressed with gzip; Cells and representatives come
-/// back from JSON; the other formats have none. `pers` is accepted with and without GUDHI's leading
-/// column of the characteristic; Ripser's text may have anything before its first heading.
+/// Reads a barcode file of any format, which may be compressed with gzip. Cells and representatives
+/// are read from JSON; the other formats store none. `pers` is accepted with and without GUDHI's
+/// leading column of the characteristic; Ripser's text may have anything before its first heading.
 /// @param format if empty, decided by content, then by extension. @param path "-" is standard
 /// input.
 /// @return the bars in the order of Barcode.

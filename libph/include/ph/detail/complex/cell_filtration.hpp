@@ -25,7 +25,8 @@ class CellFiltration {
  public:
   using Cell = C;
 
-  /// Lists the cells of each dimension, from TopDim down, until a dimension has a cell.
+  /// Finds the largest dimension that has a cell, by listing the cells of each dimension from
+  /// TopDim down.
   int top_dim() const {
     for (int dim = TopDim; dim >= 0; --dim) {
       bool has_cell = false;

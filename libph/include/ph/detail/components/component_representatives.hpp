@@ -14,8 +14,8 @@
 namespace ph {
 
 /// Gives the bars of H0 their representatives, if representatives are wanted: the cycle is the
-/// difference of the oldest vertices of the two components that join, and the cocycle is one on the
-/// component that dies.
+/// difference of the oldest vertices of the two components that join; the cocycle is 1 on the
+/// component that dies and 0 on all others.
 template <Filtration F, Field K>
 class ComponentRepresentatives {
  public:

@@ -26,7 +26,8 @@ class DisjointSets {
     }
     return v;
   }
-  /// To be called some time before `find`, because memory is slower than the other work on a set.
+  /// Prefetches the entry that `find` reads first. Call it some time before `find`, because memory
+  /// is slower than the other work on a set.
   void prefetch(std::uint32_t v) const { __builtin_prefetch(&parent_[v]); }
   /// To be called when `prefetch` has had time to finish: it prefetches the entry that `find` reads
   /// next.

@@ -19,8 +19,8 @@ class BarcodeBuilder {
   using Cell = typename F::Cell;
 
   /// Keeps bars of dimension <= max_dim with death - birth > min_persistence; a negative
-  /// `min_persistence` also keeps bars of length zero. The memory of the bars counts in the budget
-  /// of the context until they are finished.
+  /// `min_persistence` also keeps bars of length zero. The memory of the bars counts against the
+  /// budget of the context as long as the builder exists.
   BarcodeBuilder(const F& filtration, int max_dim, double min_persistence,
                  Representatives representatives = Representatives::none, bool cells = true,
                  const RunContext& context = default_context())

@@ -17,8 +17,8 @@
 
 namespace ph {
 
-/// Reads the output of a ByteWriter without trusting it: no count leads to more memory than the
-/// bytes themselves take.
+/// Reads the output of a ByteWriter without trusting it: a forged count cannot make the reader
+/// allocate more memory than the bytes themselves take.
 class ByteReader {
  public:
   /// @param of the name of the data, for messages: "part of an image".
@@ -58,7 +58,8 @@ class ByteReader {
     if (value > 1) refuse(what);
     return value != 0;
   }
-  /// Reads a count of items that take at least `bytes_each` bytes each.
+  /// Reads a count of items that take at least `bytes_each` bytes each; refuses it if the remaining
+  /// bytes cannot hold so many items.
   std::size_t count(std::size_t bytes_each, std::string_view what) {
     const auto count = get<std::uint64_t>(what);
     if (count > (bytes_.size() - at_) / bytes_each) refuse(what);

@@ -49,8 +49,8 @@ class ResidentFiles {
   ResidentFiles(const ResidentFiles&) = delete;
   ResidentFiles& operator=(const ResidentFiles&) = delete;
   ~ResidentFiles();
-  /// The number of these bytes; 0 if the system does not say. Quick; several threads may call it at
-  /// once.
+  /// The number of these bytes, or 0 if the system does not report their number. The call is quick,
+  /// and several threads may make it at once.
   std::size_t bytes() const;
 
  private:

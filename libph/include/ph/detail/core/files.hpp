@@ -10,7 +10,8 @@
 /// System calls for files, by descriptors. If a function reports failure, errno has the reason.
 namespace ph::files {
 
-/// A path from a name in UTF-8: all texts of libph are UTF-8, which not all systems assume.
+/// Makes a path from a name in UTF-8. All texts of libph are in UTF-8, but some systems assume
+/// another encoding.
 inline std::filesystem::path path_of(const std::string& name) {
   return std::u8string(name.begin(), name.end());
 }

@@ -41,7 +41,8 @@ concept FlagFiltration = Filtration<F> && requires(const F& f, std::uint32_t i) 
   { f.edge_cell(i) } -> std::same_as<typename F::Cell>;
   /// The position, in the order, of the edge with these two vertices.
   { f.edge_position(i, i) } -> std::same_as<std::uint32_t>;
-  /// The triangle of the edge at a position and another vertex; that edge is the last of its three.
+  /// The triangle spanned by the edge at a position and another vertex; that edge is the last of
+  /// the triangle's three edges.
   { f.triangle_cell(i, i) } -> std::same_as<typename F::Cell>;
   /// The tetrahedron of the edge at a position and two other vertices; that edge is its last one.
   { f.tetrahedron_cell(i, i, i) } -> std::same_as<typename F::Cell>;

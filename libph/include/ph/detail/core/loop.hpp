@@ -10,10 +10,10 @@
 
 namespace ph {
 
-/// A closed walk along edges: from vertex to vertex, and from the last one back to the first, which
-/// is not repeated. It stands for a chain: an edge walked from its first vertex to its second (for
-/// a cube, along its grid axis) counts `coefficient`, an edge walked the other way counts the
-/// opposite.
+/// A closed walk along edges, given by its vertices: it returns from the last vertex to the first,
+/// which is not repeated. The walk stands for a chain. In this chain, an edge walked from its first
+/// vertex to its second (in a grid, along its axis) has the coefficient `coefficient`, and an edge
+/// walked the other way has the negated coefficient.
 struct Loop {
   /// The numbers of the vertices, one after another: one number each (CellKind::vertices), or the
   /// doubled coordinates (CellKind::grid).
@@ -48,8 +48,8 @@ std::size_t bytes_of(std::span<const BarLoops> loops);
 /// are ordered by descending number of steps, then by vertices. O(edges) over Z/2; over Z/p each
 /// edge may add a walk of that length.
 ///
-/// Vertices do not identify an edge where a periodic axis has one voxel (a walk of one vertex and
-/// one step) or two (two edges join the same vertices).
+/// On a periodic axis of one or two voxels, the vertices do not identify an edge. With one voxel, a
+/// walk has one vertex and one step; with two voxels, two edges join the same vertices.
 /// @param field the characteristic of the coefficients.
 /// @param periods for grid cells: by axis, the number of doubled coordinates if the axis is
 ///        periodic, otherwise 0; empty if no axis is periodic.

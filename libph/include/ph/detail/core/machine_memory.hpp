@@ -12,8 +12,9 @@ namespace ph {
 /// The memory of the machine in bytes; 0 if the system does not say.
 std::uint64_t physical_memory();
 
-/// Nine tenths of the memory that the machine, or the container, allows us, in order to meet a
-/// budget before the system kills the process. Practically unlimited if the system does not say.
+/// Nine tenths of the memory that the machine or the container allows. With this limit, a
+/// computation exceeds its budget before the system kills the process. The number is practically
+/// unlimited if the system does not report its memory.
 std::size_t machine_memory();
 
 /// The smallest memory limit of the control groups of a process, of either version.

@@ -45,10 +45,11 @@ void sort_few(std::span<T> items, const Precedes& precedes) {
 }  // namespace detail
 
 /// Sorts by a double, ascending; equal values keep their order. Values must not be NaN, and all
-/// zeros must have the same sign. Makes two passes (three for many items) of 12 bits, least
-/// significant first, over the bits that begin with the highest one in which two values differ:
-/// enough for bytes, 16-bit integers and float32 of one magnitude. Items that are equal in these
-/// bits, usually a few neighbours, are sorted by comparison.
+/// zeros must have the same sign. Makes two passes of 12 bits each (three passes for many items),
+/// least significant bits first. The passes cover the bits from the highest bit in which two values
+/// differ downwards. This is enough for bytes, 16-bit integers, and float32 numbers of one
+/// magnitude. Items that are equal in these bits, usually a few neighbours, are sorted by
+/// comparison.
 /// @param buffer as long as items. @param value_of maps an item to its value.
 /// @param context is polled between passes.
 /// @return the span that holds the sorted items: `items` or `buffer`.

@@ -14,11 +14,12 @@ namespace ph::cubical {
 /// three axes, the bars that do not come from the graphs are refused from about 2^31 voxels on,
 /// when they are asked for. With more axes, these bars need fewer than 2^32 cells (2^d per voxel).
 bool can_pair_voxels(const CubicalImage& grid, int max_dim);
-/// The bytes that `pair_voxels` takes in addition to the image, without critical cells and bars.
-/// Precondition: `can_pair_voxels`.
+/// The bytes that `pair_voxels` takes in addition to the image, not counting critical cells and
+/// bars. Precondition: `can_pair_voxels`.
 double bytes_to_pair_voxels(const CubicalImage& grid);
-/// The bytes that `pair_voxels` takes if memory is so short that it processes some layers at a
-/// time. If it cannot do so, the result is bytes_to_pair_voxels. Precondition: `can_pair_voxels`.
+/// The bytes that `pair_voxels` takes if it processes only some layers at a time, because memory is
+/// short. If the image cannot be processed in this way, the result is bytes_to_pair_voxels.
+/// Precondition: `can_pair_voxels`.
 double least_bytes_to_pair_voxels(const CubicalImage& grid);
 /// True if least_bytes_to_pair_voxels, and the bars, are all the memory needed: no bars are wanted
 /// that need all layers at once. Precondition: `can_pair_voxels`.

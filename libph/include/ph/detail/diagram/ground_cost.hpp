@@ -21,8 +21,8 @@ class GroundCost {
   static double to_diagonal(double ground) {
     return std::isinf(ground) ? 1 : std::pow(2, 1 / ground);  // mutant: diagonal-norm
   }
-  /// The distance of a pair, not raised to the power, in any unit: squares neither overflow nor
-  /// underflow.
+  /// The distance between the two points of a pair, not raised to the power. It is correct in any
+  /// unit, because squares neither overflow nor underflow.
   double distance(const Point& p, const Point& q) const {
     const double x = std::abs(p[0] - q[0]), y = std::abs(p[1] - q[1]);
     return ground_ == 2 ? std::hypot(x, y) : norm(x, y);

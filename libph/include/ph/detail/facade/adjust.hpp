@@ -20,8 +20,8 @@ void name_points(std::vector<BarLoops>& loops, const std::vector<Index>& ids);
 /// other vertices never enter. Precondition: there is one id per vertex, below `size`.
 MergeTree with_input_ids(MergeTree tree, std::span<const Index> ids, std::size_t size);
 
-/// The barcode of the subcomplex of all cells up to a value: a bar born later is left out, and a
-/// class that dies later is alive. Cocycles are restricted to the subcomplex.
+/// The barcode of the subcomplex of all cells up to a value: a bar born after `threshold` is left
+/// out, and a bar that dies after it never dies. Cocycles are restricted to the subcomplex.
 /// @param barcode the barcode of the whole complex, with all bars of positive length.
 /// @param min_persistence bars that die in the subcomplex and are no longer than this are left out.
 Barcode cut_at(const Barcode& barcode, const ExplicitComplex& complex, double threshold,

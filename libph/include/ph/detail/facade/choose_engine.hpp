@@ -61,7 +61,8 @@ Plan<F> plan_for(const F& f, const Options& options) {
   bool has_incidences = true;
   if constexpr (requires { f.has_incidences(); }) has_incidences = f.has_incidences();
   check_as_it_is(options, has_incidences);
-  // Low dimensions first: the top dimension of a flag complex takes time and memory to find.
+  // Tries low dimensions before it asks for the top dimension, because the top dimension of a flag
+  // complex takes time and memory to find.
   if (options.max_dim && *options.max_dim <= 3) {
     const EngineChoice<F> choice =
         choose_engine(f, options.engine, task_of(options, *options.max_dim));

@@ -17,7 +17,7 @@ class Transport {
 
   virtual int rank() const = 0;  ///< counted from 0
   virtual int size() const = 0;  ///< number of ranks
-  /// May return before the receiver has the message.
+  /// Sends a message to the rank `to`; may return before that rank has received it.
   virtual void send(int to, std::span<const std::byte> message) = 0;
   /// Waits for the next message from that rank.
   virtual std::vector<std::byte> receive(int from) = 0;

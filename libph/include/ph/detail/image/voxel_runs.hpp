@@ -8,8 +8,8 @@
 
 namespace ph {
 
-/// Calls `use(first, count)` for the runs of a set of voxels, ascending: a run has consecutive
-/// numbers. Most sets of voxels have far fewer runs than voxels.
+/// Calls `use(first, count)` for each run of consecutive numbers in a set of voxels, in ascending
+/// order. Most sets of voxels have far fewer runs than voxels.
 /// @param voxels each once, in any order. O(n) if they lie close together, otherwise O(n log n);
 /// memory: n / 8 to 8 n bytes. @throws std::bad_alloc.
 template <class Use>

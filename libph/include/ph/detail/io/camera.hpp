@@ -44,8 +44,8 @@ struct Camera {
   Intrinsics intrinsics;
   Index width = 0, height = 0;  ///< size of its images in pixels; 0 if any size is allowed
   Lens lens = {};
-  /// True if images of another shape show the same height and a different part at the sides: the
-  /// driver crops them. Only presets set it.
+  /// True if the driver crops images of another shape at the sides: they show the same height but a
+  /// different width. Only presets set this member.
   bool crops_sides = false;
   /// Depth units per metre in depth images of whole numbers; 0 if not known.
   double depth_scale = 0;

@@ -46,7 +46,7 @@ class OutputFile {
   void write(std::span<const std::byte> bytes) {
     write(std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
   }
-  /// Passes on everything written until now, which shows it to a reader that follows the output.
+  /// Passes on everything written until now, which lets a program that follows the output read it.
   /// @throws Error (io), BrokenPipe.
   void flush();
   /// Waits until the bytes written are on the disk; it does nothing if the system cannot tell.

@@ -85,7 +85,8 @@ class Input {
   /// The part of an archive or of a mesh that was asked for; empty if none was.
   const std::string& member() const { return member_; }
   const RunContext* context() const { return context_; }
-  /// True if it exceeds the memory budget: read it block by block then, see `done_with`.
+  /// True if the input exceeds the memory budget. Such an input should be read block by block, see
+  /// `done_with`.
   bool stays_in_file() const;
   /// Counts the memory of the input from now on, for readers that need the input as a whole.
   /// @throws Error (resource) if it does not fit.
@@ -125,8 +126,8 @@ class Input {
 
 /// The lines of a text input that carry data. Comments and blank lines are skipped; a byte order
 /// mark and CRLF are accepted. A comment runs from '#' to the end of the line, unless the '#' is
-/// inside a word, a number of old Windows programs (1.#INF), quotes, or an error of a spreadsheet
-/// such as #N/A.
+/// inside a word or quotes, or belongs to a number written by an old Windows program (1.#INF) or to
+/// a spreadsheet error such as #N/A.
 class TextLines {
  public:
   static constexpr std::size_t kMaxLine = std::size_t{64} << 20;  ///< longest line in bytes
@@ -136,8 +137,8 @@ class TextLines {
   /// Starts at byte `offset`, after `lines_before` lines; the text is not tested for NUL bytes.
   TextLines(const Input& input, std::size_t offset, std::size_t lines_before);
 
-  /// From now on tabs do not count as blanks: lines keep tabs at their ends, and a line of tabs has
-  /// data.
+  /// From now on tabs do not count as blanks: lines keep tabs at their ends, and a line that
+  /// consists of tabs counts as a line with data.
   void keep_tabs() { tab_ = ' '; }
   bool keeps_tabs() const { return tab_ == ' '; }
   /// Goes to the next line with data. @return false at the end.

@@ -84,8 +84,8 @@ enum class SquareKind {
 
 /// Largest number of rows in a submatrix for `kind_of_square`.
 constexpr std::size_t kMostLookedAt = 64;
-/// The rounding errors that are tolerated, relative to the largest entry, on a diagonal, between
-/// the two entries of a pair, and below 0.
+/// The tolerance for rounding errors, relative to the largest entry: on a diagonal, between the two
+/// entries of a pair, and for entries below 0.
 constexpr double kRounding = 1e-6;
 
 /// @param block the entries of a principal submatrix, row by row, `side`^2 of them. NaN is

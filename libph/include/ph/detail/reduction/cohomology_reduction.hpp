@@ -83,8 +83,8 @@ class CohomologyReduction {
   std::span<const Cell> death_cells() const { return death_cells_; }
   std::span<const Cell> essential() const { return essential_; }
 
-  /// Sets the cells that are pivots of the dimension before. To be called before the first call to
-  /// `reduce_dimension`, if another engine reduced that dimension.
+  /// Sets the pivots of the previous dimension, if another engine reduced that dimension. Call it
+  /// before the first call to `reduce_dimension`.
   void set_cleared(CellMap<F> pivots) { cleared_ = std::move(pivots); }
 
  private:

@@ -52,7 +52,7 @@ class HomologyReduction {
     reduce_collected();
   }
   /// Reduces only these columns of dimension `dim`; dimensions may come in any order. This is
-  /// enough if all other columns are zero or apparent and nobody asks for the apparent ones.
+  /// enough if all other columns are zero or apparent, and apparent pairs are not wanted.
   void reduce_columns(int dim, std::span<const Cell> cells) {
     start_dimension(dim);
     for (const Cell& cell : cells) {

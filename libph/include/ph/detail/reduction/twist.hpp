@@ -14,8 +14,9 @@ struct TwistEngine {
   static bool can_run(const F&, const Task& task) {
     return task.representatives != Representatives::cocycles && task.wants_no_sets();
   }
-  /// Found by measurement: if cells are numbered, columns are few and short in both directions, and
-  /// boundaries are faster; if cells are not numbered, listing the next dimension costs too much.
+  /// Chosen by measurement. If cells are numbered, columns are few and short in both directions,
+  /// and reducing boundaries is faster. If cells are not numbered, listing the cells of the next
+  /// dimension costs too much.
   template <Filtration F>
   static Suitability suitability(const F&, const Task&) {
     if (SlottedFiltration<F>) return {3, "the complex numbers its cells"};

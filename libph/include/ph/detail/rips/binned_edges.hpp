@@ -68,7 +68,7 @@ class BinnedEdges {
   std::span<FlagEdge> edges_of(std::size_t bin) const {
     return std::span(edges_).subspan(bin_begin(bin), bin_begin(bin + 1) - bin_begin(bin));
   }
-  /// Sorts the bins with the first `count` edges.
+  /// Sorts the bins that contain the first `count` edges.
   void sort_until(std::size_t count) const;
   void sort_bin(std::size_t bin) const;
   /// Waits for the bin that is being sorted ahead, if there is one. The caller must hold the mutex.
@@ -140,8 +140,9 @@ class EdgeBinner {
   FlagEdges edges_;
 };
 
-/// Takes edges that can be listed only once and whose number is unknown. Blocks take little more
-/// memory than the edges; a vector that doubles takes up to three times as much.
+/// Collects edges that can be listed only once and whose number is unknown. It stores them in
+/// blocks, which take little more memory than the edges; a vector that doubles its size takes up to
+/// three times as much.
 class EdgeCollector {
  public:
   explicit EdgeCollector(const RunContext& context) : blocks_(&context.memory) {}

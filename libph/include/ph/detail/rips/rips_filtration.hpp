@@ -80,7 +80,7 @@ class RipsFiltration {
   std::size_t vertex_count() const { return static_cast<std::size_t>(graph_.size()); }
   std::span<const double> vertex_births() const { return graph_.births(); }
   const BinnedEdges& binned_edges() const { return graph_.binned_edges(); }
-  /// The points, if there are no edges, for engines that need none.
+  /// The points if the graph holds no edges, for engines that need only points; otherwise null.
   const PointsView* points_alone() const { return graph_.points_alone(); }
   double threshold() const { return graph_.threshold(); }
   Cell vertex_cell(std::uint32_t v) const { return {0, Vertices(v)}; }
@@ -173,8 +173,8 @@ class RipsFiltration {
       if (const auto v = vertex(cell, slot); v != longest.u && v != longest.v) return slot;
     return dim + 1;
   }
-  /// The smallest vertex below `below` that edges before `key` join to all slots of a cell except
-  /// slot `skipped`, or kNoVertex.
+  /// The smallest vertex below `below` that is joined, by edges before `key`, to all vertices of a
+  /// cell except the vertex in slot `skipped`; kNoVertex if there is none.
   std::uint32_t first_common_neighbour(int dim, const Cell& cell, int skipped,
                                        std::uint32_t below) const;
   static constexpr std::uint32_t kNoVertex = UINT32_MAX;

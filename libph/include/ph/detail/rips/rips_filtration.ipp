@@ -5,10 +5,10 @@
 
 namespace ph {
 
-// A simplex is its longest edge e and a clique of the link of e; m is the least vertex of the
-// clique. Its oldest cofacet of equal key has the least vertex w of the link that is joined to all
-// of the clique. The youngest facet of equal key of this cofacet is the simplex if and only if w <
-// m.
+// A simplex consists of its longest edge e and a clique of the link of e. Let m be the least vertex
+// of the clique. Its oldest cofacet of equal key has the least vertex w of the link that is joined
+// to all of the clique. The youngest facet of equal key of this cofacet is the simplex if and only
+// if w < m.
 template <RipsLayout Layout, int Words>
 auto RipsFiltration<Layout, Words>::apparent_cofacet(int dim, const Cell& cell) const
     -> std::optional<Cell> {

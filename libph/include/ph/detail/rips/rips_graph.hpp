@@ -125,8 +125,8 @@ class RipsGraph {
   bool is_dense() const {
     return RipsAdjacency::is_dense(static_cast<std::size_t>(size_), edge_count());
   }
-  /// The neighbours of each vertex; made by the first thread that asks: engines that go edge by
-  /// edge do not need it.
+  /// The neighbours of each vertex; made when a thread first asks for them, because engines that go
+  /// edge by edge do not need them.
   const RipsAdjacency& adjacency() const {
     if (const RipsAdjacency* made = lazy_->made.load(std::memory_order_acquire)) return *made;
     require_edges();

@@ -39,8 +39,8 @@ class SparseRips {
     const double value = meeting(small, std::max(of_u, of_v), distance);
     return value <= (1 + epsilon_) * small ? value : RipsGraph::kNoLimit;  // mutant: sparse-gone
   }
-  /// The value at which the ball of v meets the ball of point 0, which grows forever. From the
-  /// largest of these values on, there is a single component and nothing else.
+  /// The value at which the ball of v meets the ball of point 0, which grows forever. At and above
+  /// the largest of these values, the complex has a single component and no other homology.
   double reach(Index v, double distance) const {
     return meeting(largest_ball(v), RipsGraph::kNoLimit, distance);
   }
@@ -61,7 +61,7 @@ class SparseRips {
 /// The graph of the sparse Rips filtration. Evaluates all distances once, in addition to the
 /// distances for the permutation. Keeps O(n / epsilon^d) edges for points in d dimensions, if the
 /// diameter is not too large a multiple of the least distance.
-/// @param threshold by default, the value from which only one component is left.
+/// @param threshold by default, the least value at which only one component is left.
 template <Metric M>
 RipsGraph sparse_rips_graph(const M& metric, const GreedyPermutation& order, double epsilon,
                             std::optional<double> threshold, const RunContext& context) {

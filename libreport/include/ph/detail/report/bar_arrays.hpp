@@ -8,8 +8,8 @@
 
 namespace ph::report {
 
-/// Writes `prefix`/dim, birth and death and, if `cells` is set and the barcode has cells, these as
-/// well.
+/// Writes the arrays `prefix`/dim, `prefix`/birth and `prefix`/death. If `cells` is set and the
+/// barcode has cells, also writes the arrays of the cells.
 /// @param prefix "bars", or "bars2" for the second barcode of a comparison.
 /// @throws Error (bad_data) on a bar of dimension 256 or higher; Error (resource, cancelled, io).
 void add_bars(ReportFile& report, const Barcode& barcode, std::string_view prefix = "bars",

@@ -27,9 +27,10 @@ struct CloudMeta {
   std::optional<std::array<double, 3>> viewpoint = {};  ///< position of the sensor
   std::optional<std::array<double, 3>> up = {};
   std::string metric = {};  ///< "euclidean": the page may find the edges of a Rips complex
-  std::optional<double> edges_below = {};      ///< edges from this value on are missing
-  std::optional<double> triangles_below = {};  ///< triangles from this value on are missing
-  std::string projection = {};                 ///< for example "first 3 of 10 coordinates"
+  std::optional<double> edges_below = {};  ///< some edges at or above this value are missing
+  std::optional<double> triangles_below =
+      {};                       ///< some triangles at or above this value are missing
+  std::string projection = {};  ///< for example "first 3 of 10 coordinates"
 };
 
 /// A segment of the segmentation that the page shows first.
@@ -41,7 +42,7 @@ struct SegmentMeta {
   std::uint32_t on_surface = 0, on_segment = 0;  ///< number of the segment's support; 0: none known
 };
 
-/// The properties of a segmentation beside the labels.
+/// The properties of a segmentation other than its labels.
 struct SceneMeta {
   std::vector<SegmentMeta> segments;            ///< by label
   std::vector<std::string_view> surface_roles;  ///< role of each surface, by its number

@@ -37,8 +37,8 @@ struct TreeMeta {
 /// one leaf. Leaves are numbered by their smallest vertex.
 struct ContractedTree {
   std::vector<std::uint32_t> leaf_of;  ///< leaf of each vertex; kNone if it never enters
-  std::vector<double> leaf_birth;      ///< least birth of its vertices
-  /// Number of its points and of its vertices.
+  std::vector<double> leaf_birth;      ///< for each leaf, the least birth of its vertices
+  /// For each leaf, the number of its points and the number of its vertices.
   std::vector<std::uint32_t> leaf_points, leaf_vertices;
   struct KeptMerge {
     std::size_t merge;  ///< its place in MergeTree::merges

@@ -28,7 +28,8 @@ std::vector<std::uint8_t> surfaces_of(const SceneTree& scene,
                                       const std::vector<Index>& component_of, Index min_size);
 
 /// The number of voxels of each group on each surface that was found among the components, group
-/// after group. These numbers suffice for any union of groups. @param group_of each vertex, from 0.
+/// after group. These numbers suffice for any union of groups. @param group_of the group of each
+/// vertex, counted from 0.
 std::vector<std::uint32_t> voxels_on_surfaces(const SceneTree& scene,
                                               std::span<const std::uint32_t> group_of,
                                               std::size_t groups);
