@@ -47,8 +47,8 @@ class VoxelNeighbours {
     return result;
   }
 
-  /// The nodes that can be reached from a node by steps to nodes for which `open` returns true,
-  /// including the node itself.
+  /// The nodes that can be reached from `from` through nodes for which `open` returns true. The
+  /// result includes `from` if it is open, and is empty otherwise.
   /// @param wide true if voxels that share a corner are neighbours; otherwise, they must share a
   /// facet.
   template <class IsOpen>

@@ -131,8 +131,9 @@ concept GraphFiltration = Filtration<F> && requires(const F& f) {
 
 // clang-format on
 
-/// Makes the data that a lazy filtration needs for its cells. Code that lists cells calls it first.
-/// @throws Error (resource) and (cancelled), by the limits of `context`.
+/// Makes the data from which a lazy filtration lists its cells. Call it before listing cells.
+/// @throws Error (resource) beyond the memory limit of `context`; Error (cancelled) on a stop
+/// request.
 template <Filtration F>
 void prepare_cells(const F& filtration, const RunContext& context) {
   if constexpr (LazyFiltration<F>) filtration.prepare(context);

@@ -165,7 +165,8 @@ def compare_tests(program, task, found):
         ends = []
         for slack in (-1e-9, 1e-9):
             share = sum(x <= exact * (1 + slack) + slack * 1e-3 for x in losses) / len(losses)
-            # Seven standard deviations of the number of shuffles, plus one shuffle.
+            # Seven standard deviations of the share of shuffles, plus 25 shuffles if the share is
+            # neither 0 nor 1, plus the given labelling.
             spread = 7 * math.sqrt(share * (1 - share) / task.shuffles) + 25 / task.shuffles * (share * (1 - share) > 0)
             ends.append(share + math.copysign(spread + 1 / (task.shuffles + 1), slack))
         if not ends[0] <= p <= ends[1] or not 0 < p <= 1:

@@ -12,8 +12,8 @@ export function rowsIn(room: number): number {
   return Math.floor(room / kMostRow);
 }
 
-/// The number and the height of the rows of each dimension. If rows are thin, a dimension with few
-/// bars keeps higher rows.
+/// The number and the height of the rows of each dimension. If rows have to be thin, the rows of a
+/// dimension with few bars stay taller.
 export function layOut(
   counts: number[],
   wishes: number[],

@@ -95,7 +95,7 @@ class Blocks {
         ] = 1;
   }
 
-  /// The faces between the set and the rest. Adjacent faces in a line along the columns form one
+  /// The faces between the set and the rest. Adjacent coplanar faces within a row form one
   /// rectangle.
   surface(): number[] {
     const corners: number[] = [];
