@@ -75,7 +75,7 @@ def rows(Row):
         "--loops": Row("--loops", "none", beside=LOOPS),
         "--significance": Row("--significance", unfit=POINTS),
         "--part": Row("--part", "1/2", unfit=IMAGE),
-        "--join": Row("--join", unfit='expected "ph part"'),
+        "--join": Row("--join", unfit='begin with "ph part"'),
         "--output": Row("--output", "x.csv"),
         "--output-format": Row("--output-format", "json"),
         "--plot": Row("--plot", "x.svg"),
