@@ -15,9 +15,6 @@
 
 namespace ph::python {
 
-/// The loops to compute for each cycle of H1: none, loops as they are found, or shortened loops.
-enum class LoopChoice { none, plain, tight };
-
 /// The computation to run.
 struct Task {
   Options options;
@@ -106,14 +103,3 @@ class ListedRecipe final : public Recipe {
 };
 
 }  // namespace ph::python
-
-namespace ph {
-
-template <>
-inline constexpr std::array names_of<python::LoopChoice>{
-    Named{python::LoopChoice::none, "none"},
-    Named{python::LoopChoice::plain, "plain"},
-    Named{python::LoopChoice::tight, "tight"},
-};
-
-}  // namespace ph

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,7 +10,7 @@
 #include "apps/common/arguments/plot_arguments.hpp"
 #include "ph/alpha.hpp"
 #include "ph/cubical.hpp"
-#include "ph/detail/core/names.hpp"
+#include "ph/detail/core/loop.hpp"
 #include "ph/greedy_permutation.hpp"
 #include "ph/io/read.hpp"
 #include "ph/io/write.hpp"
@@ -39,9 +38,6 @@ enum class ComplexKind {
 constexpr bool is_triangulated(ComplexKind kind) {
   return kind >= ComplexKind::alpha && kind <= ComplexKind::delaunay_rips;
 }
-
-/// The loops to compute for each cycle of H1: shortened, as they are found, or none.
-enum class LoopChoice { tight, plain, none };
 
 /// The delay embedding of a time series: each window of the series becomes a point.
 struct Delay {
@@ -78,7 +74,7 @@ struct Results {
   bool check = false;
   bool significance = false;  ///< a p-value per bar
   bool dry_run = false;
-  std::optional<BarcodeFormat> output_format;  // as --output-format names it; empty: not given
+  std::optional<BarcodeFormat> output_format;  ///< as --output-format names it; empty: not given
   PlotOptions look;                            ///< look of the plots
 };
 
@@ -95,7 +91,7 @@ struct Surface {
 struct Places {
   std::string input = {};  ///< empty: the inputs of the job
   std::string output = "-";
-  BarcodeFormat format = BarcodeFormat::csv;
+  BarcodeFormat format = BarcodeFormat::csv;  ///< of the barcode, once it is settled
   std::vector<app::Plot> plots = {};
   std::string report = {};  ///< empty: none
   std::vector<Surface> surfaces = {};
@@ -153,14 +149,3 @@ struct Outcome {
 };
 
 }  // namespace ph::barcode
-
-namespace ph {
-
-template <>
-inline constexpr std::array names_of<barcode::LoopChoice>{
-    Named{barcode::LoopChoice::tight, "tight"},
-    Named{barcode::LoopChoice::plain, "plain"},
-    Named{barcode::LoopChoice::none, "none"},
-};
-
-}  // namespace ph

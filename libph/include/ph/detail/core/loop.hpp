@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "ph/barcode.hpp"
+#include "ph/detail/core/names.hpp"
 #include "ph/run_context.hpp"
 
 namespace ph {
@@ -22,6 +24,16 @@ struct Loop {
   /// The sum of the values of its edges, if values are lengths.
   std::optional<double> length = std::nullopt;
   friend bool operator==(const Loop&, const Loop&) = default;
+};
+
+/// The loops to compute for the cycles of H1: shortened, as they are found, or none.
+enum class LoopChoice { tight, plain, none };
+
+template <>
+inline constexpr std::array names_of<LoopChoice>{
+    Named{LoopChoice::tight, "tight"},
+    Named{LoopChoice::plain, "plain"},
+    Named{LoopChoice::none, "none"},
 };
 
 /// The guarantee about the length of loops.
