@@ -76,6 +76,8 @@ enum class Setting : std::uint8_t {
   voxel,
 };
 
+/// All settings except `none`, in the order of their names. The words of a name are separated by
+/// underscores.
 template <>
 inline constexpr std::array names_of<Setting>{
     Named{Setting::allow_empty, "allow_empty"},
@@ -124,11 +126,6 @@ inline constexpr std::array names_of<Setting>{
     Named{Setting::viewpoint, "viewpoint"},
     Named{Setting::voxel, "voxel"},
 };
-
-/// The name of a setting in lower case, its words separated by underscores: "max_dim".
-std::string_view setting_name(Setting setting);
-/// All settings except `none`, in the order of their names.
-std::span<const Setting> all_settings();
 
 /// A change that would help: a setting with a value (engine, "auto"). The value is empty if any
 /// other value helps, or if the setting has none.

@@ -15,12 +15,6 @@ namespace {
 constexpr char kBegin = '\x1e', kValue = '\x1d', kEnd = '\x1f';
 constexpr std::string_view kPlace = "@place", kFound = "@found", kClause = "; ";
 
-constexpr auto kAll = [] {
-  std::array<Setting, names_of<Setting>.size()> all{};
-  std::ranges::transform(names_of<Setting>, all.begin(), &Named<Setting>::value);
-  return all;
-}();
-
 std::string marked(std::string_view name, std::string_view value) {
   std::string text(1, kBegin);
   text += name;
@@ -80,7 +74,7 @@ void each_clause(std::string_view text, Use&& use) {
 }
 
 std::string neutral(Setting setting, std::string_view value) {
-  std::string text(setting_name(setting));
+  std::string text(name_of(setting));
   if (!value.empty()) (text += ' ') += alternatives(value);
   return text;
 }
@@ -115,10 +109,6 @@ std::string marked_value(std::string_view text, std::string_view name) {
 
 }  // namespace
 
-std::string_view setting_name(Setting setting) { return name_of(setting); }
-
-std::span<const Setting> all_settings() { return kAll; }
-
 std::string alternatives(std::string_view values, std::string_view quote) {
   std::string text;
   for (bool is_first = true;; is_first = false) {
@@ -131,7 +121,7 @@ std::string alternatives(std::string_view values, std::string_view quote) {
 }
 
 std::string mark(Setting setting, std::string_view value) {
-  return marked(setting_name(setting), value);
+  return marked(name_of(setting), value);
 }
 std::string mark_place(std::string_view place) { return marked(kPlace, place); }
 std::string mark_found(std::string_view found) { return marked(kFound, found); }

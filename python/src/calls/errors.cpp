@@ -98,8 +98,8 @@ void bind_errors(py::module_& m) {
   py::register_exception_translator(translate);
   m.def("keywords", [] {
     py::dict keywords;
-    for (const Setting setting : all_settings())
-      keywords[py::str(std::string(setting_name(setting)))] = keyword_of(setting, "").name;
+    for (const auto& [setting, name] : names_of<Setting>)
+      keywords[py::str(std::string(name))] = keyword_of(setting, "").name;
     return keywords;
   });
 }

@@ -49,7 +49,7 @@ Keyword keyword_of(Setting setting, std::string_view value) {
     case Setting::spacing:
       return named("supervoxels");
     default:
-      return named(setting_name(setting));
+      return named(name_of(setting));
   }
 }
 

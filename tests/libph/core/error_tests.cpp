@@ -15,7 +15,7 @@ namespace {
 /// An interface without the setting nan.
 const Words kShouting{[](Setting setting, std::string_view value) {
   if (setting == Setting::nan) return std::string();
-  return "SET " + std::string(setting_name(setting)) + (value.empty() ? "" : " TO ") +
+  return "SET " + std::string(name_of(setting)) + (value.empty() ? "" : " TO ") +
          (value.empty() ? "" : alternatives(value, "'"));
 }};
 
@@ -82,13 +82,13 @@ TEST(Message, TakesAnyText) {
 
 TEST(Setting, HasANameOfItsOwn) {
   std::set<std::string_view> names;
-  for (const Setting setting : all_settings()) {
+  for (const auto& [setting, name] : names_of<Setting>) {
     EXPECT_NE(setting, Setting::none);
-    EXPECT_TRUE(names.insert(setting_name(setting)).second) << setting_name(setting);
-    EXPECT_EQ(Message(mark(setting)).str(), setting_name(setting));
+    EXPECT_TRUE(names.insert(name).second) << name;
+    EXPECT_EQ(Message(mark(setting)).str(), name);
   }
-  EXPECT_EQ(names.size(), static_cast<std::size_t>(*all_settings().rbegin()));
-  EXPECT_EQ(setting_name(Setting::none), "");
+  EXPECT_EQ(names.size(), static_cast<std::size_t>(names_of<Setting>.back().value));
+  EXPECT_EQ(name_of(Setting::none), "");
 }
 
 TEST(Error, KeepsItsMarks) {
