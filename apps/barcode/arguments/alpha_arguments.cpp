@@ -31,22 +31,22 @@ Surface surface_of(const std::string& option, const std::string& text, bool is_w
 
 }  // namespace
 
-void add_alpha_options(app::Options& options, Job& a) {
+void add_alpha_options(app::Options& options, Job& job) {
   options.topic("alpha");
   options.choice({"--alpha-values", kOfAlpha},
                  "what values are: the radius of the balls, or its square (default radius; with "
                  "--weights squared)",
-                 a.question.alpha_unit);
+                 job.question.alpha_unit);
   options.path({"--weights", kOfAlpha}, "FILE",
                "the square of each ball's first radius, one number a point (default: all 0); of "
                "complex alpha",
-               a.question.weights);
+               job.question.weights);
   options.value({"--period", kOfAlpha}, "L|L,L,…",
                 "points of a periodic space: the length after which each axis closes up, one for "
                 "all or one an axis; 0: it does not",
-                [&a](const std::string& text) {
-                  a.question.period = app::parse_numbers("--period", text);
-                  for (const double length : a.question.period)
+                [&job](const std::string& text) {
+                  job.question.period = app::parse_numbers("--period", text);
+                  for (const double length : job.question.period)
                     if (!(length >= 0 && std::isfinite(length)))
                       throw Error(ErrorKind::usage,
                                   fmt::format("--period: found '{}', expected finite numbers of "
@@ -55,9 +55,9 @@ void add_alpha_options(app::Options& options, Job& a) {
                 });
   const auto add_surfaces = [&](const std::string& option, const std::string& what, bool is_wrap) {
     options.repeated({option, kOfAlpha}, "R=FILE.ply|.off", what,
-                     [&a, option, is_wrap](const std::vector<std::string>& all) {
+                     [&job, option, is_wrap](const std::vector<std::string>& all) {
                        for (const std::string& text : all)
-                         a.places.surfaces.push_back(surface_of(option, text, is_wrap));
+                         job.places.surfaces.push_back(surface_of(option, text, is_wrap));
                      });
   };
   add_surfaces("--alpha-shape",
@@ -67,38 +67,39 @@ void add_alpha_options(app::Options& options, Job& a) {
                true);
 }
 
-void check_alpha_arguments(Job& a) {
-  const bool is_weighted = !a.question.weights.empty();
-  if (is_weighted && a.question.alpha_unit == AlphaOptions::Unit::radius)
+void check_alpha_arguments(Job& job) {
+  const bool is_weighted = !job.question.weights.empty();
+  if (is_weighted && job.question.alpha_unit == AlphaOptions::Unit::radius)
     throw Error(ErrorKind::usage,
                 "--alpha-values: found radius with --weights, expected squared: squares may be "
                 "negative");
-  const std::string_view name = complex_names()[static_cast<std::size_t>(a.question.complex)];
-  const bool is_alpha = a.question.complex != ComplexKind::delaunay_cech &&
-                        a.question.complex != ComplexKind::delaunay_rips;
+  const std::string_view name = complex_names()[static_cast<std::size_t>(job.question.complex)];
+  const bool is_alpha = job.question.complex != ComplexKind::delaunay_cech &&
+                        job.question.complex != ComplexKind::delaunay_rips;
   if (is_weighted && !is_alpha)
     throw Error(ErrorKind::usage,
                 fmt::format("--weights: found --complex {}, expected alpha", name));
-  if (!a.places.surfaces.empty() && !is_alpha)
+  if (!job.places.surfaces.empty() && !is_alpha)
     throw Error(ErrorKind::usage, fmt::format("{}: found --complex {}, expected alpha",
-                                              a.places.surfaces[0].option(), name));
+                                              job.places.surfaces[0].option(), name));
   const bool is_periodic =
-      std::ranges::any_of(a.question.period, [](double length) { return length > 0; });
+      std::ranges::any_of(job.question.period, [](double length) { return length > 0; });
   if (is_periodic && !is_alpha)
     throw Error(ErrorKind::usage,
                 fmt::format("--period: found --complex {}, expected alpha", name));
-  if (is_periodic && !a.places.surfaces.empty())
+  if (is_periodic && !job.places.surfaces.empty())
     throw Error(ErrorKind::usage,
                 fmt::format("{}: found --period, expected a space that does not close up",
-                            a.places.surfaces[0].option()));
-  for (const Surface& surface : a.places.surfaces)
-    if (a.question.threshold && surface.value > *a.question.threshold)
+                            job.places.surfaces[0].option()));
+  for (const Surface& surface : job.places.surfaces)
+    if (job.question.threshold && surface.value > *job.question.threshold)
       throw Error(ErrorKind::usage,
                   fmt::format("{}: found {}, expected at most --threshold, {}", surface.option(),
-                              surface.value, *a.question.threshold));
-  if (!a.question.alpha_unit)
-    a.question.alpha_unit = is_weighted ? AlphaOptions::Unit::squared : AlphaOptions::Unit::radius;
-  if (is_weighted && a.question.weights == "-" && std::ranges::count(a.inputs, "-") > 0)
+                              surface.value, *job.question.threshold));
+  if (!job.question.alpha_unit)
+    job.question.alpha_unit =
+        is_weighted ? AlphaOptions::Unit::squared : AlphaOptions::Unit::radius;
+  if (is_weighted && job.question.weights == "-" && std::ranges::count(job.inputs, "-") > 0)
     throw Error(ErrorKind::usage, "--weights: standard input can be read once only");
 }
 

@@ -33,96 +33,97 @@ Names output_formats() {
   return names;
 }
 
-void take_report(Job& a, const std::string& path) {
+void take_report(Job& job, const std::string& path) {
   report::require_built_in();
   const bool is_place = path.ends_with('/') || app::is_folder(path);
   if (path != "-" && !is_place && !ends_in(path, ".html") && !ends_in(path, ".htm"))
     throw Error(ErrorKind::usage,
                 fmt::format("--report: found '{}', expected a name that ends in .html", path));
-  a.places.report = path;
+  job.places.report = path;
 }
 
-void add_input_options(app::Options& options, Job& a) {
+void add_input_options(app::Options& options, Job& job) {
   options.topic("input");
   options.inputs(
       "INPUT",
-      a.sharing.on_ranks
+      job.sharing.on_ranks
           ? "the image, or the points; all ranks have to see the file"
           : "files to read; - is standard input. Several, or a folder, are a batch: its outputs "
             "are folders (FOLDER/) or have a * for the input's name. A stored barcode is drawn, "
             "converted or reported again; the word plot before it says that it is one",
-      a.inputs);
+      job.inputs);
   static const Names formats = format_names();
   options.choice({"--format", kOfInputs.with(kSomeLayers | kSomeBlocks)}, formats,
                  "format of the input (default auto: by content and extension)",
-                 [&a](std::size_t i) { a.reading.format = ph::formats()[i].format; });
+                 [&job](std::size_t i) { job.reading.format = ph::formats()[i].format; });
   options.path(
       {"--values", kOfInputs}, "FILE",
       "values of the cells of a boundary matrix (default: their order), or of the vertices of "
       "a mesh: text, NPY, or a property of a mesh, FILE.ply:NAME",
-      a.reading.values);
+      job.reading.values);
   options.flag({"--allow-empty", kOfInputs}, "an input without points is no error",
-               a.reading.options.allow_empty);
+               job.reading.options.allow_empty);
   options.choice<Symmetrise>(
       {"--symmetrise", kOfMatrices},
       "take an asymmetric distance matrix, by the larger, the smaller or the lower entry",
-      [&a](Symmetrise way) {
-        a.reading.options.symmetrise = way;
-        a.reading.options.array = ArrayMeaning::distances;
+      [&job](Symmetrise way) {
+        job.reading.options.symmetrise = way;
+        job.reading.options.array = ArrayMeaning::distances;
       },
       std::span(names_of<Symmetrise>).subspan(1));
   // mutant: scope-correlation
   options.flag({"--from-correlation", kOfDistances},
-               "the matrix holds correlations r; distances are 1 - r", [&a] {
-                 a.reading.options.from_correlation = true;
-                 a.reading.options.array = ArrayMeaning::distances;
+               "the matrix holds correlations r; distances are 1 - r", [&job] {
+                 job.reading.options.from_correlation = true;
+                 job.reading.options.array = ArrayMeaning::distances;
                });
   options.choice(
       {"--diagonal", kOfMatrices}, {"zero", "births"},
       "what the diagonal of a distance matrix has: 0, whatever stands there, or when each "
       "point enters (default: 0, else an error)",
-      [&a](std::size_t i) {
-        a.reading.options.diagonal = i == 0 ? Diagonal::any : Diagonal::births;
-        a.reading.options.array = ArrayMeaning::distances;
+      [&job](std::size_t i) {
+        job.reading.options.diagonal = i == 0 ? Diagonal::any : Diagonal::births;
+        job.reading.options.array = ArrayMeaning::distances;
       });
   options.choice(
       {"--nan",
        {kRips | kCubical | kOwn | kAlpha | kSomeLayers | kSomeBlocks,
         "points, distances and images"}},
       "what NaN means: an error (default), or a point, distance or voxel that is not there",
-      a.reading.options.nan);
+      job.reading.options.nan);
 }
 
 constexpr std::array<std::string_view, 4> kPlotKinds{"barcode", "diagram", "betti", "tree"};
 
 constexpr int kAnyNumber = 1 << 20;
 
-void take_compared(Job& a, const std::vector<std::string>& paths) {
+void take_compared(Job& job, const std::vector<std::string>& paths) {
   if (paths.size() != 2)
     throw Error(ErrorKind::usage,
                 fmt::format("--compare: expected two barcodes, found {}", paths.size()));
-  a.compare = paths;
+  job.compare = paths;
 }
 
-void add_output_options(app::Options& options, Job& a) {
+void add_output_options(app::Options& options, Job& job) {
   options.topic("output");
   options.value(
       "-o,--output", "FILE",
       "where the barcode goes (default -: standard output); FOLDER/ for several inputs; after the "
       "word plot, where the picture goes",
-      [&a](const std::string& text) {
+      [&job](const std::string& text) {
         if (text.empty()) throw Error(ErrorKind::usage, "--output: found '', expected a path");
-        a.places.output = text;
+        job.places.output = text;
       });
   static const Names names = output_formats();
-  options.choice("--output-format", names, "format of the barcode (default: by extension, or csv)",
-                 [&a](std::size_t i) { a.results.output_format = barcode_format_named(names[i]); });
+  options.choice(
+      "--output-format", names, "format of the barcode (default: by extension, or csv)",
+      [&job](std::size_t i) { job.results.output_format = barcode_format_named(names[i]); });
   options.value(
       {"--report", kOffRanks}, "FILE.html|.htm",
       "one page to look at: barcode, diagram, merge tree and data, linked; needs no network",
-      [&a](const std::string& path) { take_report(a, path); });
+      [&job](const std::string& path) { take_report(job, path); });
   CLI::Option* compare = options.cli().add_option_function<std::vector<std::string>>(
-      "--compare", [&a](const std::vector<std::string>& paths) { take_compared(a, paths); },
+      "--compare", [&job](const std::vector<std::string>& paths) { take_compared(job, paths); },
       "compute nothing but the bottleneck distances of two barcode files, dimension by dimension: "
       "text, or --output-format csv or json; with --report also side by side in a page; "
       "ph-distance has others");
@@ -146,92 +147,92 @@ void add_picture_options(app::Options& options, app::PlotArguments& plots) {
 
 /// Handles `ph-barcode plot BARS… -o FILE.svg`, which draws stored barcodes.
 /// @return true if the first plot is the file that -o names.
-bool take_word(Job& a, app::PlotArguments& plots) {
-  if (a.inputs.empty() || a.inputs.front() != "plot") return false;
+bool take_word(Job& job, app::PlotArguments& plots) {
+  if (job.inputs.empty() || job.inputs.front() != "plot") return false;
   // If `plot` is the only input and a file has this name, the file is meant; together with other
   // inputs, such a file must be given as ./plot.
-  if (a.inputs.size() == 1 && std::filesystem::exists("plot")) return false;
-  a.stored = true;
-  a.inputs.erase(a.inputs.begin());
-  if (a.inputs.empty())
+  if (job.inputs.size() == 1 && std::filesystem::exists("plot")) return false;
+  job.stored = true;
+  job.inputs.erase(job.inputs.begin());
+  if (job.inputs.empty())
     throw Error(ErrorKind::usage, "plot: INPUT is missing, expected barcode files");
   const bool wants_bars =
-      a.results.output_format.value_or(BarcodeFormat::none) != BarcodeFormat::none;
-  const app::Plot picture{.path = a.places.output, .kind = {}};
+      job.results.output_format.value_or(BarcodeFormat::none) != BarcodeFormat::none;
+  const app::Plot picture{.path = job.places.output, .kind = {}};
   if (wants_bars && (picture.is_svg() || picture.is_png()))
     throw Error(
         ErrorKind::usage,
         fmt::format("--output-format: found {0} with the picture -o {1}; expected --plot {1} "
                     "for the picture and -o for the barcode",
-                    barcode_format_name(*a.results.output_format), a.places.output));
-  const auto bars = barcode_format_of_path(a.places.output);
-  const bool has_others = !plots.paths.empty() || !a.places.report.empty();
+                    barcode_format_name(*job.results.output_format), job.places.output));
+  const auto bars = barcode_format_of_path(job.places.output);
+  const bool has_others = !plots.paths.empty() || !job.places.report.empty();
   if (bars && !wants_bars && !has_others)
     throw Error(ErrorKind::usage,
                 fmt::format("plot: found -o {}, expected FILE.svg or FILE.png; --output-format {} "
                             "writes the barcode there",
-                            printable(a.places.output), barcode_format_name(*bars)));
+                            printable(job.places.output), barcode_format_name(*bars)));
   // An output with the extension of a barcode format is a converted barcode.
-  const bool is_picture = a.places.output != "-" && !wants_bars && !bars;
+  const bool is_picture = job.places.output != "-" && !wants_bars && !bars;
   if (is_picture) {
-    plots.paths.insert(plots.paths.begin(), a.places.output);
-    a.places.output = "-";
+    plots.paths.insert(plots.paths.begin(), job.places.output);
+    job.places.output = "-";
   }
-  if (a.places.output == "-" && !a.results.output_format)
-    a.results.output_format = BarcodeFormat::none;
-  if (plots.paths.empty() && a.places.report.empty() &&
-      a.results.output_format == BarcodeFormat::none)
+  if (job.places.output == "-" && !job.results.output_format)
+    job.results.output_format = BarcodeFormat::none;
+  if (plots.paths.empty() && job.places.report.empty() &&
+      job.results.output_format == BarcodeFormat::none)
     throw Error(ErrorKind::usage, "plot: expected -o FILE.svg or -o FILE.png");
   return is_picture;
 }
 
 /// Checks options that depend on one another.
-void check_together(Job& a) {
+void check_together(Job& job) {
   const auto reject = [](const std::string& what) { throw Error(ErrorKind::usage, what); };
-  if (a.places.report == "-" && a.places.output == "-" &&
-      a.results.output_format != BarcodeFormat::none)
+  if (job.places.report == "-" && job.places.output == "-" &&
+      job.results.output_format != BarcodeFormat::none)
     reject(fmt::format("--report: standard output has the {}; -o FILE or --output-format none",
-                       a.compare.empty() ? "barcode" : "distances"));
-  check_part_arguments(a);
-  if (!a.compare.empty()) {
-    if (!a.inputs.empty())
+                       job.compare.empty() ? "barcode" : "distances"));
+  check_part_arguments(job);
+  if (!job.compare.empty()) {
+    if (!job.inputs.empty())
       reject(fmt::format("--compare: found INPUT '{}' beside it, expected two barcode files only",
-                         a.inputs.front()));
+                         job.inputs.front()));
     return;
   }
-  if (a.inputs.empty()) reject("INPUT is missing; see --help");
-  for (const std::string& input : a.inputs)
+  if (job.inputs.empty()) reject("INPUT is missing; see --help");
+  for (const std::string& input : job.inputs)
     if (input.empty()) reject("INPUT: found '', expected a path");
-  if (std::count(a.inputs.begin(), a.inputs.end(), "-") > 1)
+  if (std::count(job.inputs.begin(), job.inputs.end(), "-") > 1)
     reject("INPUT: standard input can be read once only");
-  if (a.question.options.max_dim && a.question.options.min_dim > *a.question.options.max_dim)
+  if (job.question.options.max_dim && job.question.options.min_dim > *job.question.options.max_dim)
     reject(fmt::format("--min-dim: found {}, expected at most --max-dim, {}",
-                       a.question.options.min_dim, *a.question.options.max_dim));
-  const Engine engine = a.question.options.engine;
-  if (a.question.options.representatives != Representatives::none && engine == Engine::standard)
+                       job.question.options.min_dim, *job.question.options.max_dim));
+  const Engine engine = job.question.options.engine;
+  if (job.question.options.representatives != Representatives::none && engine == Engine::standard)
     reject(
         fmt::format("--engine: found {}, which gives no representatives; expected auto, twist or "
                     "cohomology",
                     engine.name()));
-  const bool has_cycles = a.question.options.representatives == Representatives::cycles ||
-                          a.question.options.representatives == Representatives::voxels;
-  if (a.results.loops && !has_cycles)
+  const bool has_cycles = job.question.options.representatives == Representatives::cycles ||
+                          job.question.options.representatives == Representatives::voxels;
+  if (job.results.loops && !has_cycles)
     reject("--loops: found without --representatives cycles or voxels, from which loops are made");
-  if (a.results.loops && (a.question.options.max_dim == 0 || a.question.options.min_dim > 1))
+  if (job.results.loops && (job.question.options.max_dim == 0 || job.question.options.min_dim > 1))
     reject("--loops: found without dimension 1, the only dimension with loops");
-  if (a.question.options.collapse == Collapse::on && a.question.options.min_persistence < 0)
+  if (job.question.options.collapse == Collapse::on && job.question.options.min_persistence < 0)
     reject(
         "--collapse: found on, which loses bars of length 0; a negative --min-persistence keeps "
         "them");
-  if (a.question.options.collapse == Collapse::on &&
-      a.question.options.representatives == Representatives::cocycles)
+  if (job.question.options.collapse == Collapse::on &&
+      job.question.options.representatives == Representatives::cocycles)
     reject(
         "--collapse: found on, expected off or auto with --representatives cocycles: they need "
         "all edges");
-  check_rips_arguments(a);
-  check_alpha_arguments(a);
-  check_image_arguments(a);
-  check_table_arguments(a);
+  check_rips_arguments(job);
+  check_alpha_arguments(job);
+  check_image_arguments(job);
+  check_table_arguments(job);
 }
 
 }  // namespace

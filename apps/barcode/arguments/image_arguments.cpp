@@ -19,49 +19,49 @@ using app::parse_number;
 
 namespace {
 
-void take_periodic(Job& a, const std::string& text) {
+void take_periodic(Job& job, const std::string& text) {
   if (text == "all") {
-    a.question.cubical.periodic.assign(Cubical::kMaxDim, true);
+    job.question.cubical.periodic.assign(Cubical::kMaxDim, true);
     return;
   }
   for (const std::int64_t number : parse_integers("--periodic", text, 0, Cubical::kMaxDim - 1)) {
     const auto axis = static_cast<std::size_t>(number);
-    if (a.question.cubical.periodic.size() <= axis)
-      a.question.cubical.periodic.resize(axis + 1, false);
-    a.question.cubical.periodic[axis] = true;
+    if (job.question.cubical.periodic.size() <= axis)
+      job.question.cubical.periodic.resize(axis + 1, false);
+    job.question.cubical.periodic[axis] = true;
   }
 }
 
-RawLayout& raw(Job& a) {
-  return a.reading.options.raw ? *a.reading.options.raw : a.reading.options.raw.emplace();
+RawLayout& raw(Job& job) {
+  return job.reading.options.raw ? *job.reading.options.raw : job.reading.options.raw.emplace();
 }
 
 }  // namespace
 
-void add_cubical_options(app::Options& options, Job& a) {
+void add_cubical_options(app::Options& options, Job& job) {
   options.topic("cubical");
   options.choice({"--construction", kOfCubical}, "voxels are vertices (default) or top cells",
-                 a.question.cubical.construction);
+                 job.question.cubical.construction);
   options.flag({"--superlevel", kOfCubical},
                "superlevel sets, the largest values first; values are those of the negated image",
-               [&a] { a.question.cubical.superlevel = true; });
+               [&job] { job.question.cubical.superlevel = true; });
   options.value({"--periodic", kOfCubical}, "AXES",
                 "axes that close up on themselves, such as 0,2, or all (default: none)",
-                [&a](const std::string& text) { take_periodic(a, text); });
+                [&job](const std::string& text) { take_periodic(job, text); });
   options.value({"--slab-layers", kOfCubical}, "N",
                 "layers along the first axis that are looked at together; the bars are the same "
                 "(default: all if the memory limit allows it, else as many as it does)",
-                [&a](const std::string& text) {
+                [&job](const std::string& text) {
                   constexpr Index most = Index{1} << 30;
-                  a.common.slab_layers =
+                  job.common.slab_layers =
                       static_cast<int>(parse_integer("--slab-layers", text, 1, most));
                 });
   options.value(
       {"--voxel", kOfVoxels}, "X",
       "of points with --complex cubical: edge of the voxels that they lie in, in their unit",
-      [&a](const std::string& text) {
-        a.question.voxel = parse_number("--voxel", text);
-        if (!(*a.question.voxel > 0) || !std::isfinite(*a.question.voxel))
+      [&job](const std::string& text) {
+        job.question.voxel = parse_number("--voxel", text);
+        if (!(*job.question.voxel > 0) || !std::isfinite(*job.question.voxel))
           throw Error(ErrorKind::usage,
                       fmt::format("--voxel: found '{}', expected a finite number above 0", text));
       });
@@ -69,47 +69,47 @@ void add_cubical_options(app::Options& options, Job& a) {
       {"--voxel-value", kOfVoxels},
       "what such a voxel is worth: the distance to the nearest voxel with a point (default); "
       "0 with a point, else it is not there; minus the number of its points",
-      a.question.voxel_value);
+      job.question.voxel_value);
 }
 
-void add_raw_options(app::Options& options, Job& a) {
+void add_raw_options(app::Options& options, Job& job) {
   options.topic("raw");
   options.value(
       {"--raw-shape", kOfRaw}, "N,M,…",
       "sizes of the axes, the last one fastest; the input is numbers without a header that "
       "says so (--format raw)",
-      [&a](const std::string& text) {
+      [&job](const std::string& text) {
         constexpr Index most = Index{1} << 32;
         const auto extents = parse_integers("--raw-shape", text, 0, most);
-        raw(a).extents.assign(extents.begin(), extents.end());
+        raw(job).extents.assign(extents.begin(), extents.end());
       });
   options.choice({"--raw-type", kOfRaw},
                  {"uint8", "int8", "uint16", "int16", "uint32", "int32", "uint64", "int64",
                   "float16", "float32", "float64"},
-                 "what they are (default uint8)", [&a](std::size_t i) {
+                 "what they are (default uint8)", [&job](std::size_t i) {
                    constexpr std::array kTypes{"u1", "i1", "u2", "i2", "u4", "i4",
                                                "u8", "i8", "f2", "f4", "f8"};
-                   raw(a).type = kTypes[i];
+                   raw(job).type = kTypes[i];
                  });
   options.flag({"--raw-big-endian", kOfRaw}, "the high byte comes first (default: last)",
-               [&a] { raw(a).big_endian = true; });
+               [&job] { raw(job).big_endian = true; });
   options.value({"--raw-skip", kOfRaw}, "BYTES", "bytes before them: a header (default 0)",
-                [&a](const std::string& text) {
-                  raw(a).skip = static_cast<std::size_t>(parse_integer("--raw-skip", text, 0));
+                [&job](const std::string& text) {
+                  raw(job).skip = static_cast<std::size_t>(parse_integer("--raw-skip", text, 0));
                 });
 }
 
-void check_image_arguments(Job& a) {
-  if (a.reading.options.raw && a.reading.options.raw->extents.empty())
+void check_image_arguments(Job& job) {
+  if (job.reading.options.raw && job.reading.options.raw->extents.empty())
     throw Error(ErrorKind::usage, "--raw-type, --raw-big-endian and --raw-skip need --raw-shape");
-  if (a.reading.options.raw && a.reading.format == Format::automatic)
-    a.reading.format = Format::raw;
-  if (a.reading.options.raw && a.reading.format != Format::raw)
+  if (job.reading.options.raw && job.reading.format == Format::automatic)
+    job.reading.format = Format::raw;
+  if (job.reading.options.raw && job.reading.format != Format::raw)
     throw Error(ErrorKind::usage, "--raw-shape: makes sense for --format raw only");
-  if (!a.reading.options.raw && a.reading.format == Format::raw)
+  if (!job.reading.options.raw && job.reading.format == Format::raw)
     throw Error(ErrorKind::usage, "--format: found raw, which needs --raw-shape");
-  if (a.reading.options.raw && a.reading.options.raw->big_endian &&
-      a.reading.options.raw->type.ends_with('1'))
+  if (job.reading.options.raw && job.reading.options.raw->big_endian &&
+      job.reading.options.raw->type.ends_with('1'))
     throw Error(
         ErrorKind::usage,
         "--raw-big-endian: found numbers of one byte, expected a --raw-type of several bytes");

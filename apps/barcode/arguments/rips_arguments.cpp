@@ -15,7 +15,7 @@ namespace ph::barcode {
 using app::parse_integer;
 using app::parse_number;
 
-void add_rips_options(app::Options& options, Job& a) {
+void add_rips_options(app::Options& options, Job& job) {
   options.topic("rips");
   const auto number = [&](const std::string& option, const std::string& placeholder,
                           const std::string& description, bool may_be_zero, auto take) {
@@ -32,15 +32,15 @@ void add_rips_options(app::Options& options, Job& a) {
       {"--collapse", kOfRips},
       "collapse edges first, which leaves fewer of them and the same bars (default auto: "
       "where it pays)",
-      a.question.options.collapse);
+      job.question.options.collapse);
   options.choice(
       {"--device", kOfPoints},
       "what finds the components of points with Euclidean distances, --max-dim 0 (default "
       "cpu); the results are the same. gpu: one of NVIDIA, where that is built in",
-      a.question.rips.device);
-  const auto limits = [&a]() -> GreedyLimits& {
-    if (!a.question.rips.subsample) a.question.rips.subsample.emplace();
-    return *a.question.rips.subsample;
+      job.question.rips.device);
+  const auto limits = [&job]() -> GreedyLimits& {
+    if (!job.question.rips.subsample) job.question.rips.subsample.emplace();
+    return *job.question.rips.subsample;
   };
   options.value(
       {"--subsample", kOfAllPairs}, "N",
@@ -53,44 +53,44 @@ void add_rips_options(app::Options& options, Job& a) {
   number("--approximate", "EPS",
          "sparse Rips: fewer edges, and bars that are born and die later by a factor of 1 + EPS at "
          "most",
-         false, [&a](double epsilon) { a.question.rips.approximation = epsilon; });
+         false, [&job](double epsilon) { job.question.rips.approximation = epsilon; });
   options.path(
       {"--vertex-weights", kOfRips}, "FILE",
       "when each point enters, one number a point, in units of the distance (default: all at "
       "0)",
-      a.question.vertex_weights);
+      job.question.vertex_weights);
   options.value({"--dtm", kOfAllPairs}, "K",
                 "DTM filtration: points enter at twice their distance to the measure of their K "
                 "nearest points, themselves included",
-                [&a](const std::string& text) {
-                  a.question.rips.dtm_neighbours = parse_integer("--dtm", text, 1);
+                [&job](const std::string& text) {
+                  job.question.rips.dtm_neighbours = parse_integer("--dtm", text, 1);
                 });
   options.choice(
       {"--weight-exponent", kOfRips},
       "how the ball of a point born at B has grown at T: to (T^P - B^P)^(1/P) (default inf, "
       "with --dtm 1)",
-      a.question.rips.weight_exponent);
+      job.question.rips.weight_exponent);
 }
 
-void check_rips_arguments(Job& a) {
+void check_rips_arguments(Job& job) {
   std::vector<std::string_view> sources;
-  if (!a.question.vertex_weights.empty()) {
+  if (!job.question.vertex_weights.empty()) {
     sources.push_back("--vertex-weights");
   }
-  if (a.question.rips.dtm_neighbours) sources.push_back("--dtm");
-  if (a.reading.options.diagonal == Diagonal::births) sources.push_back("--diagonal births");
+  if (job.question.rips.dtm_neighbours) sources.push_back("--dtm");
+  if (job.reading.options.diagonal == Diagonal::births) sources.push_back("--diagonal births");
   const auto exclude = [](std::string_view one, std::string_view other) {
     throw Error(ErrorKind::usage, fmt::format("{}: excludes {}", one, other));
   };
   if (sources.size() > 1) exclude(sources[0], sources[1]);
-  if (sources.empty() && a.question.rips.weight_exponent)
+  if (sources.empty() && job.question.rips.weight_exponent)
     throw Error(ErrorKind::usage, "--weight-exponent needs --dtm or --vertex-weights");
   if (sources.empty()) return;
-  if (a.question.rips.subsample) exclude(sources[0], "--subsample");
-  if (a.question.rips.approximation) exclude(sources[0], "--approximate");
-  if (a.reading.options.diagonal == Diagonal::births && a.reading.options.from_correlation)
+  if (job.question.rips.subsample) exclude(sources[0], "--subsample");
+  if (job.question.rips.approximation) exclude(sources[0], "--approximate");
+  if (job.reading.options.diagonal == Diagonal::births && job.reading.options.from_correlation)
     exclude("--diagonal births", "--from-correlation");
-  if (a.question.vertex_weights == "-" && std::ranges::count(a.inputs, "-") > 0)
+  if (job.question.vertex_weights == "-" && std::ranges::count(job.inputs, "-") > 0)
     throw Error(ErrorKind::usage, "--vertex-weights: standard input can be read once only");
 }
 

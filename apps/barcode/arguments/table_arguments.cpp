@@ -15,8 +15,8 @@ namespace ph::barcode {
 
 namespace {
 
-void take_columns(Job& a, const std::string& text) {
-  a.reading.options.columns.clear();
+void take_columns(Job& job, const std::string& text) {
+  job.reading.options.columns.clear();
   for (std::string_view rest = text;;) {
     const std::size_t comma = rest.find(',');
     std::string_view word = rest.substr(0, comma);
@@ -26,69 +26,69 @@ void take_columns(Job& a, const std::string& text) {
       throw Error(ErrorKind::usage,
                   fmt::format("--columns: found '{}', expected names or numbers such as x,y or 2-3",
                               printable(text, 80)));
-    a.reading.options.columns.emplace_back(word);
+    job.reading.options.columns.emplace_back(word);
     if (comma == std::string_view::npos) return;
     rest.remove_prefix(comma + 1);
   }
 }
 
-void take_delay(Job& a, const std::string& text) {
+void take_delay(Job& job, const std::string& text) {
   const std::vector<std::int64_t> numbers = app::parse_integers("--delay", text, 1);
   if (numbers.size() > 2)
     throw Error(ErrorKind::usage,
                 fmt::format("--delay: found '{}', expected D or D,TAU", printable(text, 80)));
-  a.reading.delay = {numbers[0], numbers.size() == 2 ? numbers[1] : 1};
+  job.reading.delay = {numbers[0], numbers.size() == 2 ? numbers[1] : 1};
 }
 
 }  // namespace
 
-void add_table_options(app::Options& options, Job& a) {
+void add_table_options(app::Options& options, Job& job) {
   options.topic("input");
   options.value(
       {"--columns", kOfInputs.with(kSomeBlocks)}, "LIST",
       "columns of a table that are read, by the names in its header or by numbers from 1: "
       "x,y or 2-4 or 1,3 (default: all but an index)",
-      [&a](const std::string& text) { take_columns(a, text); });
+      [&job](const std::string& text) { take_columns(job, text); });
   options.value(
       {"--delay", {kPoints | kAlpha | kOwn, "Rips and alpha complexes of time series"}}, "D,TAU",
       "the input is a time series, a row for each time: points are its values at D times, "
       "TAU rows apart (default TAU 1)",
-      [&a](const std::string& text) { take_delay(a, text); });
+      [&job](const std::string& text) { take_delay(job, text); });
   options.choice<Channel>(
       {"--channel", kOfInputs.with(kSomeLayers)},
       "what of a colour picture is read (default: its grey, if it has no colours); grey of "
       "colours is their luma, 0.299 R + 0.587 G + 0.114 B",
-      [&a](Channel channel) { a.reading.options.channel = channel; },
+      [&job](Channel channel) { job.reading.options.channel = channel; },
       std::span(names_of<Channel>).subspan(1));
 }
 
-void check_table_arguments(Job& a) {
-  ArrayMeaning& meaning = a.reading.options.array;
-  if (a.reading.delay) {
-    if (a.reading.options.nan == NanPolicy::drop)
+void check_table_arguments(Job& job) {
+  ArrayMeaning& meaning = job.reading.options.array;
+  if (job.reading.delay) {
+    if (job.reading.options.nan == NanPolicy::drop)
       throw Error(ErrorKind::usage,
                   "--delay: excludes --nan drop: no time may be missing in a time series");
     // Reads an array of one or two axes.
-    if (a.reading.format == Format::automatic) meaning = ArrayMeaning::image;
+    if (job.reading.format == Format::automatic) meaning = ArrayMeaning::image;
   }
-  if (a.reading.format == Format::distance) meaning = ArrayMeaning::distances;
+  if (job.reading.format == Format::distance) meaning = ArrayMeaning::distances;
   if (meaning != ArrayMeaning::automatic) return;
   // An option that has an effect for only one kind of input tells which kind the input is.
   const auto is_only_for = [&](app::Situations kinds) {
-    return std::ranges::any_of(a.given, [&](const app::GivenOption& option) {
+    return std::ranges::any_of(job.given, [&](const app::GivenOption& option) {
       return (option.scope.where & ~kinds) == 0;
     });
   };
-  const bool is_cubical = a.question.complex == ComplexKind::cubical;
-  if (a.reading.format == Format::points || a.question.complex == ComplexKind::own ||
-      is_triangulated(a.question.complex) || is_only_for(kPoints | kSomeBlocks) ||
+  const bool is_cubical = job.question.complex == ComplexKind::cubical;
+  if (job.reading.format == Format::points || job.question.complex == ComplexKind::own ||
+      is_triangulated(job.question.complex) || is_only_for(kPoints | kSomeBlocks) ||
       is_only_for(kVoxels))
     meaning = ArrayMeaning::points;
-  else if (a.question.complex == ComplexKind::rips ||
+  else if (job.question.complex == ComplexKind::rips ||
            (!is_cubical && is_only_for(kPoints | kMatrix | kTriangle | kSomePairs | kSomeBlocks)))
     meaning = ArrayMeaning::rips;
   else if (is_cubical || is_only_for(kImage | kVoxels | kImagePart | kRanks) ||
-           a.wants_image_part())
+           job.wants_image_part())
     meaning = ArrayMeaning::image;
 }
 

@@ -16,9 +16,9 @@ namespace ph::barcode {
 namespace {
 
 /// For a mesh without values: a note on how its vertices and faces are used. Empty for other data.
-std::string note_on_mesh(const ReadResult& read, const Job& a) {
+std::string note_on_mesh(const ReadResult& read, const Job& job) {
   const auto* const mesh = std::get_if<Mesh>(&read.data);
-  if (a.question.complex == ComplexKind::lower_star || mesh == nullptr || mesh->faces() == 0 ||
+  if (job.question.complex == ComplexKind::lower_star || mesh == nullptr || mesh->faces() == 0 ||
       !mesh->values.empty())
     return {};
   return fmt::format(
