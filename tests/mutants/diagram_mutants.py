@@ -41,7 +41,7 @@ MUTANTS = [
         ("permutation test: powers overflow", "permutation-powers", "return least < most ? 1 : largest * of_largest;"),
     ]),
     *found_by("curves_tests", [
-        ("vectors: a capped bar is dropped, too", "vector-capped", "continue;"),
+        ("vectors: a capped bar is dropped as well", "vector-capped", "continue;"),
         ("vectors: a place in a grid is one too far", "grid-place", "if (is_end) return guess;"),
         ("vectors: the last value of a grid is rounded", "grid-last", ""),
         ("vectors: a silhouette does not fall", "silhouette-falls", "-", ""),

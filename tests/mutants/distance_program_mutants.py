@@ -12,7 +12,7 @@ MUTANTS = [
         ("pairs: distances in the order of the tasks", "pair-order", "task.a, task.b",
          "barcodes.size() - 1 - task.b, barcodes.size() - 1 - task.a"),
         ("matrix: the first of several dimensions", "matrix-dimensions", "size() != 1", "empty()"),
-        ("matrix: all pairs are printed, too", "matrix-table", "matrix.empty()", "true"),
+        ("matrix: all pairs are printed as well", "matrix-table", "matrix.empty()", "true"),
         ("matrix: infinite numbers without a word", "matrix-infinite", "0", "99"),
         ("names: quotes in a cell are not doubled", "csv-quotes", "text.insert(i, 1, '\"');", "{}"),
     ], targets=["ph-distance"]),

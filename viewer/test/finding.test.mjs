@@ -78,9 +78,9 @@ test("the highest dimension in which some stand out is chosen, others are told",
   const bars = [[0, 0, kNever], [1, 0.3, 1.3], [1, 0.3, 2.3], ...noise(1, [0.1, 0.09, 0.08, 0.08]), [2, 0.5, 1.4], ...noise(2, [0.1, 0.09, 0.08, 0.08], 1)];
   const { dim, bars: chosen, sentence } = finding(bars);
   assert.deepEqual([dim, chosen], [2, [7]]);
-  assert.equal(sentence, "One void stands out: [0.5, 1.4), 9.0 times as long as the next. Two loops stand out, too.");
+  assert.equal(sentence, "One void stands out: [0.5, 1.4), 9.0 times as long as the next. Two loops stand out as well.");
   const higher = finding([...bars, [3, 1, 3], ...noise(3, [0.1, 0.1, 0.1, 0.1])]);
-  assert.match(higher.sentence, /^One H₃ class stands out: \[1, 3\), 20 times .* One void and two loops stand out, too\.$/);
+  assert.match(higher.sentence, /^One H₃ class stands out: \[1, 3\), 20 times .* One void and two loops stand out as well\.$/);
 });
 
 test("noise of a higher dimension is no finding", () => {
@@ -210,7 +210,7 @@ test("the page cuts where the sentence has its gap", () => {
 
 test("bars that never end", () => {
   const { sentence, bars } = finding([[0, -3, kNever], [1, -1, kNever], [1, 1, kNever], [2, 3, kNever]]);
-  assert.equal(sentence, "Two loops never end: [−1, ∞) and [1, ∞). One void stands out, too.");
+  assert.equal(sentence, "Two loops never end: [−1, ∞) and [1, ∞). One void stands out as well.");
   assert.deepEqual(bars, [1, 2]);
   // Alive where the complex was cut: at least that long.
   const cut = [[0, 0, kNever], [1, 0.1, kNever], ...noise(1, [0.1, 0.09, 0.08, 0.08])];
@@ -230,7 +230,7 @@ test("the void of a closed surface leads only if there is nothing else", () => {
   const sphere = [[0, -3, kNever], [2, 3, kNever]];
   assert.equal(finding(sphere).sentence, "One void never ends: [3, ∞).");
   const legs = [[0, -2, 2], [0, -2, 1.9], ...noise(0, [0.2, 0.1, 0.1, 0.1], 0)];
-  const last = /^Three components stand out.* One void stands out, too\.$/;
+  const last = /^Three components stand out.* One void stands out as well\.$/;
   assert.match(finding([...sphere, ...legs]).sentence, last);
   // A void that ends is a hollow of the values, which is not trivial.
   assert.match(finding([...sphere, [2, -1, 2], ...legs]).sentence, /^Two voids/);

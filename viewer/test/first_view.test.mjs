@@ -73,7 +73,7 @@ test("the first view", { timeout: 300_000 }, async (t) => {
     const first = await open(browser, torus());
     assert.equal(
       await first.page.textContent(".finding span"),
-      "One void stands out: [0.52, 1.36), the only one. Two loops stand out, too.",
+      "One void stands out: [0.52, 1.36), the only one. Two loops stand out as well.",
     );
     assert.match(await selection(first.page), /^H₂ \[0\.52, 1\.36\)/);
     assert.ok((await tintedPixels(first.page, ".stage", kGreen)) > 15_000, "its cycle is drawn");

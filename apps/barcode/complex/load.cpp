@@ -108,7 +108,7 @@ Loaded load(const Job& job, std::optional<Input>& input, app::Session& session, 
   }();
   input.reset();
   const auto& [name, read, dropped, sha256] = data;
-  // Scanners mark holes with NaN, so NaN in an image is an error only if an option says so.
+  // Scanners mark holes with NaN, so NaN in an image is an error only with --nan error.
   if (dropped > 0 && is_given(job, "nan") && job.reading.options.nan == NanPolicy::error)
     throw Error(ErrorKind::bad_data,
                 fmt::format("{}: {} with NaN, expected numbers; --nan drop leaves them out",

@@ -25,7 +25,7 @@ struct Shown {
 /// Writes the interactive report; the caller commits the file. Besides the barcode, the report
 /// contains the points or the image, and the merge tree of H0. It has no tree if the complex was
 /// subsampled, approximated or cut off. If memory does not suffice for the tree, the tree is left
-/// out and a note says so.
+/// out and a note reports it.
 /// @throws Error (io, resource, cancelled).
 void write_report(OutputFile& file, const Shown& shown, const Job& job, app::Session& session);
 

@@ -84,10 +84,8 @@ bool is_common(const CLI::Option& option) {
 }  // namespace
 
 void add_common_options(Options& options, CommonOptions& common) {
-  options
-      .cli()
-      // Removed, because the effect of CLI11's own flag depends on the order of the options.
-      .set_help_flag();
+  // The effect of CLI11's own flag would depend on the order of the options: it is removed.
+  options.cli().set_help_flag();
   options.topic(kLimitsTopic.name);
   options.value("--threads", "N", "threads to use (default: one for each core)",
                 [&common](const std::string& text) {

@@ -85,7 +85,7 @@ void add_distance_options(app::Options& options, Arguments& a) {
                   "--distance bottleneck and wasserstein"}},
                 "E",
                 "how much too large a distance may be, as a part of it: 0.01 is 1 % (default 0: "
-                "exact); the lower bound is printed, too",
+                "exact); the lower bound is printed as well",
                 [&a](const std::string& text) {
                   a.distance.limits.relative_error = parse_finite("--error", text, 0);
                 });

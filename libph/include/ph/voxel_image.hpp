@@ -12,8 +12,8 @@ namespace ph {
 /// An image of a point cloud.
 struct PointImage {
   Image image;
-  std::vector<double>
-      first;         ///< centre of the voxel at (0, …, 0), in the coordinates of the points
+  /// Centre of the voxel at (0, …, 0), in the coordinates of the points.
+  std::vector<double> first;
   double voxel = 0;  ///< edge length of a voxel
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Guesses what a text or an array holds if it does not say so. If two readings make sense, one is
-// taken with a note, or the input is refused; none is taken silently.
+// Guesses what a text or an array holds if it does not declare it. If two readings make sense, one
+// is taken with a note, or the input is refused; none is taken silently.
 #include <fmt/format.h>
 
 #include <algorithm>

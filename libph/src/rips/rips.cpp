@@ -195,8 +195,8 @@ struct Rips::State {
     return made;
   }
 
-  std::shared_ptr<const detail::HeldInput>
-      input;  // null if a graph was given, or the input was freed
+  // Null if a graph was given, or the input was freed.
+  std::shared_ptr<const detail::HeldInput> input;
   Index size;
   RipsOptions options;
   const RunContext* context = &default_context();

@@ -135,8 +135,8 @@ struct CutOptions {
   /// method paper, the distance at which components are taken, in metres, at most the distance of
   /// the tree. The value is >= 0.
   double value = 1;
-  Index min_part =
-      200;  ///< not paper: fewest voxels of a part, >= 1; a smaller one joins a neighbour
+  /// Not paper: fewest voxels of a part, >= 1; a smaller one joins a neighbour.
+  Index min_part = 200;
   Index min_size = 32;  ///< fewest voxels of a segment, >= 1
   bool objects = true;  ///< surface: join the visible parts of an object
   /// Surface: the least strength of a seam between parts, in multiples of `value`, >= 0. At 0, only

@@ -79,7 +79,7 @@ def euler_curve(image: Any, *, range: Iterable[float] | None = None,
     request = cubical_request({**_OF_BARS, **locals()})._replace(task=None)
     if range is None:
         if resolution is not None:
-            raise _options.refuse("resolution", resolution, "a range, too: without one there is no "
+            raise _options.refuse("resolution", resolution, "a range as well: without one there is no "
                                   "grid")
         return StepFunction._of(request.run(_core.curve_of_image))
     ends = checked_range("range", range)

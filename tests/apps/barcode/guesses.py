@@ -58,7 +58,7 @@ class Matrices(GuessTest):
         self.write("named.csv", "," + ",".join(names) + "\n" + "".join(
             f"{names[i]}," + csv([self.r[i]]) for i in range(20)))
         self.check(self.of_r, "named.csv", "--from-correlation", note="left out",
-                   silent=["takes it, too"])
+                   silent=["also takes it"])
         self.write("large.csv", csv([[1.2 * x for x in row] for row in self.r]))
         self.h0("large.csv", note="--format distance --diagonal zero reads distances",
                 silent=["--from-correlation"])

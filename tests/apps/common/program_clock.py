@@ -84,7 +84,7 @@ def main():
     with open(BARCODE, "rb") as file:
         content = file.read()
         if b"__asan_init" in content or b"__tsan_init" in content:
-            print("SKIPPED: sanitizers look at the clock, too")
+            print("SKIPPED: sanitizers look at the clock as well")
             return 77
     wrong, count = [], 0
     for words in RUNS:

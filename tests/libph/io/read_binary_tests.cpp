@@ -293,8 +293,8 @@ TEST(Png, RefusesAnyFlippedByte) {
       EXPECT_EQ(read_png(Input::view(bytes, "r.png")).samples, right.samples) << i;
     });
   }
-  std::string bomb =
-      whole.substr(0, 33);  // only the signature and IHDR; its checksum is corrected below
+  // Only the signature and IHDR; its checksum is corrected below.
+  std::string bomb = whole.substr(0, 33);
   bomb[16] = bomb[20] = 0;
   EXPECT_TRUE(contains(bad_data([&] { read_png(Input::view(bomb, "r.png")); }), "r.png: byte"));
 }

@@ -142,8 +142,8 @@ inline void expect_read_back(const Segmentation& s) {
 inline void expect_right(const TopDownScene& scene, Method method) {
   const Segmentation s = segment(CloudView{scene.xyz(), {}}, {.method = method});
   ASSERT_TRUE(s.tree.plane);
-  const double beside =
-      2 * s.tree.voxel + 0.005;  // within this distance, a box may take points from the table
+  // Within this distance, a box may take points from the table.
+  const double beside = 2 * s.tree.voxel + 0.005;
   std::map<std::uint32_t, std::size_t> box_of_label;
   std::vector<std::map<std::uint32_t, Index>> labels_of_box(scene.box_count() + 1);
   for (std::size_t i = 0; i < s.cut.labels.size(); ++i) {

@@ -138,7 +138,7 @@ export function findingOf(report: Report): Finding {
   );
   const count = others.reduce((sum, o) => sum + o.bars.length, 0);
   const verb = count === 1 ? "stands" : "stand";
-  const also = count > 0 ? ` ${capital(listed(names))} ${verb} out, too.` : "";
+  const also = count > 0 ? ` ${capital(listed(names))} ${verb} out as well.` : "";
   return {
     dim: first.found.dim,
     bars: first.bars.length > kMostSelected ? [] : first.bars,

@@ -18,8 +18,8 @@ namespace ph::cubical {
 template <class Graph>
 void follow_inner_arrows(const StarGrid& grid, const Graph& graph, ArrowForest<Graph>& forest,
                          const RunContext& context) {
-  constexpr std::uint32_t many =
-      256;  // does nothing if at most one voxel in this many has a critical cell
+  // Does nothing if at most one voxel in this many has a critical cell.
+  constexpr std::uint32_t many = 256;
   if (grid.critical().size() <= grid.size() / many) return;
   // Where a piece begins, the rows before it that share cells with it are processed again.
   const std::uint32_t layer = grid.has_axis(0) ? grid.extent(1) : 1;

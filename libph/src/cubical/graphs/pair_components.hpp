@@ -138,8 +138,8 @@ class ComponentPairing {
   const RunContext& context_;
   RawVector<Ends> ends_;
   std::pmr::vector<NumberedCell> roots_;
-  std::uint32_t outer_count_ =
-      0;  // the number of basins that were always there; every other basin has a root in `roots_`
+  // The number of basins that were always there; every other basin has a root in `roots_`.
+  std::uint32_t outer_count_ = 0;
 };
 
 }  // namespace ph::cubical

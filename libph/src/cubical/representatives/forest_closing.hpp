@@ -154,8 +154,8 @@ class ForestClosing {
       const StarCell bridge = tree_.bridge_cell(tree_.merges()[merge].bridge);
       const auto [lower, upper] = oriented_ends(tree_.graph(), bridge);
       const std::uint32_t below = tree_.basin_of(lower);
-      const bool goes_up =
-          below == at.basin;  // true if the way up follows the direction of the edge
+      // True if the way up follows the direction of the edge.
+      const bool goes_up = below == at.basin;
       const Element coefficient = goes_up ? at.amount : field_.negate(at.amount);
       chain.emplace_back(bridge, coefficient);
       add_boundary(bridge, coefficient);

@@ -139,7 +139,7 @@ class DeadGenerators {
   template <class Find>
   void eliminate(Accumulator& sum, Find&& combination_of);
   /// Moves the content of a sum into a vector or a combination, and empties the sum. A combination
-  /// that is stored as bits stays so.
+  /// that is stored as bits stays in this form.
   void take_terms(Accumulator& sum, Vector& terms);
   void take(Accumulator& sum, Combination& c);
 

@@ -65,7 +65,7 @@ class RelationSolver {
   }
   void assign(const Edge& edge, Sum a);
   void report_death(Generator g, Triangle death);
-  /// Turns lists into rows, or solves the collected relations, if it is time to do so. @return
+  /// Turns lists into rows, or solves the collected relations, if enough are collected. @return
   /// false if the solver must stop.
   bool solve_if_due();
   /// Solves the collected relations and reports deaths. @return true if a generator died.

@@ -114,8 +114,8 @@ class PointMetric {
   WholeRows points_;
   PointDistance distance_;
   double p_;
-  bool may_need_scaling_ =
-      false;  // squares of coordinate differences may leave the range of double
+  // Squares of coordinate differences may leave the range of double.
+  bool may_need_scaling_ = false;
 };
 
 }  // namespace ph

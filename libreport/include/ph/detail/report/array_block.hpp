@@ -22,8 +22,8 @@ concept ArrayNumber = std::same_as<T, std::uint8_t> || std::same_as<T, std::int8
 
 /// The interpretation of an array.
 struct ArrayForm {
-  std::vector<std::size_t> shape =
-      {};              ///< sizes of the axes, the last one fastest; empty: one axis
+  /// Sizes of the axes, the last one fastest; empty: one axis.
+  std::vector<std::size_t> shape = {};
   bool delta = false;  ///< store differences from the row before (integers only)
   /// One offset and scale, or one per column: a number means offset + scale * stored. If both are
   /// empty, the stored number is the number itself.

@@ -28,8 +28,8 @@ struct CloudMeta {
   std::optional<std::array<double, 3>> up = {};
   std::string metric = {};  ///< "euclidean": the page may find the edges of a Rips complex
   std::optional<double> edges_below = {};  ///< some edges at or above this value are missing
-  std::optional<double> triangles_below =
-      {};                       ///< some triangles at or above this value are missing
+  /// Some triangles at or above this value are missing.
+  std::optional<double> triangles_below = {};
   std::string projection = {};  ///< for example "first 3 of 10 coordinates"
 };
 
