@@ -36,10 +36,12 @@ std::pmr::vector<std::uint32_t> first_equal_points(PointsView points, const RunC
   for (auto run = order.begin(); run != order.end();) {
     const auto end =
         std::find_if_not(run, order.end(), [&](const Hashed& h) { return same_hash(*run, h); });
-    // Different points with equal hashes are rare, unless somebody constructs them.
-    std::stable_sort(run, end, [&](const Hashed& a, const Hashed& b) {
-      return std::ranges::lexicographical_compare(row(a.number), row(b.number));
-    });
+    // Different points with equal hashes are rare, unless somebody constructs them. A sort of one
+    // point would allocate memory.
+    if (end - run > 1)
+      std::stable_sort(run, end, [&](const Hashed& a, const Hashed& b) {
+        return std::ranges::lexicographical_compare(row(a.number), row(b.number));
+      });
     for (auto it = run; it != end; ++it) {
       const bool is_copy = it != run && std::ranges::equal(row(it->number), row((it - 1)->number));
       first[it->number] = is_copy ? first[(it - 1)->number] : it->number;
