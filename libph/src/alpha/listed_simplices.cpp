@@ -113,16 +113,16 @@ class CellList {
  private:
   static constexpr Index kMissing = -1;
 
-  /// Adds a cell if it enters. @param boundary the rows of the facets of the cell, in the order of
-  /// the vertices that the facets lack.
+  /// Adds a cell if it enters the filtration. @param boundary the row of each facet of the cell;
+  /// facet i is opposite vertex i.
   /// @return the row of the cell, or kMissing if it does not enter.
   Index add_cell(std::span<const uint32_t> sites, double value, std::span<const Index> boundary) {
     std::array<Index, 4> points{};
     for (std::size_t i = 0; i < sites.size(); ++i) points[i] = cells_.sites.input[sites[i]];
     return add(std::span(points).first(sites.size()), value, boundary);
   }
-  /// Adds a cell if it enters. @param points its points in the order of their sites; the function
-  /// sorts them.
+  /// Adds a cell if it enters the filtration. @param points the points of the cell in the order of
+  /// their sites; the function sorts them.
   Index add(std::span<Index> points, double value, std::span<const Index> boundary) {
     if (!enters_(value)) return kMissing;
     ticker_.tick();
@@ -195,7 +195,8 @@ class CellList {
   BoundaryMatrix matrix_;
   // For each row: true if sorting the points was an odd permutation.
   std::pmr::vector<bool> is_turned_;
-  // The rows of vertices by site, of edges by number, and of facets by usual name.
+  // The rows of the vertices, indexed by site; of the edges, indexed by number; and of the facets,
+  // indexed by usual name.
   std::pmr::vector<Index> vertex_rows_, edge_rows_, facet_rows_;
 };
 

@@ -76,11 +76,12 @@ AlphaCells alpha_cells(PointsView points, std::span<const double> weights,
 
 namespace {
 
-/// Checks that the squares of coordinates below 2^exponent are within the range of doubles, and
-/// that so are the squares of the last places of such coordinates. @throws Error (bad_data) if they
-/// are not.
+/// Checks that two kinds of squares are within the range of doubles: the squares of coordinates
+/// below 2^exponent, and the squares of the last places of such coordinates. @throws Error
+/// (bad_data) if they are not within this range.
 void check_squares(int exponent) {
-  constexpr int most = 511, least = -458;  // 2^-916, with room for 106 more binary places
+  // The lower limit is 2^-916 for squares, which leaves room for 106 more binary places.
+  constexpr int most = 511, least = -458;
   if (exponent >= least && exponent <= most) return;  // mutant: alpha-exponent
   throw Error(ErrorKind::bad_data,
               fmt::format("alpha complex: found coordinates of about 2^{}, expected 2^{} to 2^{} "

@@ -8,7 +8,7 @@
 namespace ph::alpha {
 namespace {
 
-/// For each point of the input: its site, or the site that it is a copy of.
+/// For each point of the input, its site. The site of a copy is the site of the original point.
 std::pmr::vector<std::uint32_t> sites_by_point(const Sites& sites,
                                                std::pmr::memory_resource* memory) {
   std::pmr::vector<std::uint32_t> site_of(sites.size() + sites.copies.size(), kNone, memory);
@@ -17,8 +17,9 @@ std::pmr::vector<std::uint32_t> sites_by_point(const Sites& sites,
   return site_of;
 }
 
-/// The squared radius of the smallest ball around a simplex if its circumsphere bounds that ball;
-/// otherwise 0, because the smallest ball of one of its faces is the same ball.
+/// The squared radius of the smallest ball around a simplex if this ball is bounded by the
+/// circumsphere of the simplex. Otherwise 0, because the smallest ball around one of the faces is
+/// then the same ball.
 double own_ball(const Spheres& spheres, const std::array<std::uint32_t, 4>& sites, int dim) {
   if (dim == 1) return spheres.of_edge(sites[0], sites[1]).squared_radius;
   if (dim == 2)

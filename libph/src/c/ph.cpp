@@ -39,8 +39,8 @@ std::string& last_error() {
   return message;
 }
 
-/// Stores a message for ph_last_error and returns `status`. Never throws: the message is left out
-/// if there is too little memory for it.
+/// Stores a message for ph_last_error and returns `status`. This function never throws. It leaves
+/// out the message if there is too little memory for it.
 ph_status fail(ph_status status, const char* message) noexcept {
   try {
     last_error() = message;
@@ -79,7 +79,7 @@ ph_status guarded(Use&& use) noexcept {
     return fail(status_of(error.kind()), error.what());
   } catch (const std::bad_alloc&) {
     return fail(PH_RESOURCE, "out of memory");
-  } catch (const std::length_error&) {  // more than any memory can hold
+  } catch (const std::length_error&) {  // the size exceeds any memory
     return fail(PH_RESOURCE, "out of memory");
   } catch (const std::system_error& error) {  // thrown by std::async
     return fail(PH_RESOURCE, error.what());
@@ -94,8 +94,8 @@ void require(bool holds, const char* message) {
   if (!holds) throw Error(ErrorKind::usage, message);
 }
 
-/// The options of the caller. Members that the caller's version of the struct does not have get
-/// their defaults.
+/// Returns the options of the caller. Members that the caller's version of the struct does not have
+/// get their default values.
 ph_options complete(const ph_options* given) {
   ph_options options;
   ph_options_init(&options);
@@ -182,7 +182,7 @@ ph_status run(const ph_options* given, const Out* out, const Compute& compute) {
 template <class Make>
 ph_status barcode_of(const ph_options* given, ph_barcode** out, const Make& make) {
   return run(given, out, [&](const ph_options& options, const RunContext& context) {
-    const Options task = task_of(options);  // before any number of the input is read
+    const Options task = task_of(options);  // checked before the input is read
     *out = new ph_barcode(persistence(make(options, context), task, context));
   });
 }

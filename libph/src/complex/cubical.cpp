@@ -56,7 +56,7 @@ void refuse_nan(const CubicalImage& grid, const RunContext& context) {
         if (grid.is_in_file && begin > 0)
           forget_file_pages(voxels + (begin - block), block * sizeof(T));
         const std::size_t end = std::min(count, begin + block);
-        bool any = false;  // no branch, which lets the compiler vectorise the loop
+        bool any = false;  // a loop without branches can be vectorised by the compiler
         for (std::size_t i = begin; i < end; ++i) any |= voxels[i] != voxels[i];
         for (std::size_t i = begin; any && i < end; ++i)
           if (std::isnan(voxels[i]))
@@ -111,7 +111,8 @@ void Cubical::prepare(const RunContext& context) const {
 
 const Cubical::Table& Cubical::make_table(const RunContext& context) const {
   std::unique_lock lock(lazy_->mutex, std::defer_lock);
-  while (!lock.try_lock()) {  // another thread makes the table; this one can still be stopped
+  // Another thread makes the table, but this thread can still be stopped.
+  while (!lock.try_lock()) {
     context.poll();
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
@@ -131,7 +132,8 @@ Cubical::Table Cubical::new_table(const RunContext& context) const {
   // constructor was given.
   Table table{std::pmr::vector<std::uint32_t>(&context_->memory),
               std::pmr::vector<double>(&context_->memory)};
-  // The voxels that enter are ranked by value, and voxels of equal value by position.
+  // The voxels that enter the filtration are ranked by value. Voxels of equal value are ranked by
+  // position.
   struct Voxel {
     double value;
     std::uint32_t position;
@@ -173,10 +175,10 @@ Cubical::Table Cubical::new_table(const RunContext& context) const {
     ticker.work(more);
   }
 
-  // Voxels lie at even coordinates (V construction) or at odd ones (T construction). In the V
-  // construction, a cube enters with its last vertex; in the T construction, a face enters with its
-  // first coface. The keys of the voxels are therefore spread to the other cells, along one axis
-  // after another.
+  // Voxels have even coordinates in the V-construction and odd coordinates in the T-construction.
+  // In the V-construction, a cube enters with its last vertex. In the T-construction, a face enters
+  // with its first coface. The keys of the voxels are therefore spread to the other cells, along
+  // one axis after another.
   const std::uint64_t voxel_parity = grid_.voxels_are_vertices ? 0 : 1;
   const auto grid_index = [&](std::uint64_t voxel) {
     std::uint64_t index = 0;
@@ -202,8 +204,8 @@ void Cubical::spread_keys(std::pmr::vector<std::uint32_t>& keys, const Axis& axi
   const std::uint64_t last = axis.length - 1, slab = axis.stride * axis.length;
   for (std::uint64_t first = 0; first < keys.size(); first += slab) {
     for (std::uint64_t x = voxels_are_vertices ? 1 : 0; x <= last; x += 2) {
-      // The layers below and above along the axis; at the border of a T construction, only one of
-      // them exists.
+      // These are the layers below and above along the axis. At the border of a T-construction,
+      // only one of them exists.
       const bool has_lower = x > 0 || axis.periodic, has_upper = x < last || axis.periodic;
       // mutant: cubical-wrap
       const std::uint64_t below = x > 0 ? x - 1 : last, above = x < last ? x + 1 : 0;

@@ -46,8 +46,8 @@ void check_size(std::size_t cells) {
   }
 }
 
-// Tables have one row per dimension. The limit keeps a wrong number in a file from making them
-// huge.
+// Tables have one row for each dimension. The limit prevents huge tables if a file has a wrong
+// number.
 constexpr int kLargestDimension = 65535;
 
 [[noreturn]] void refuse(std::string_view what, const std::string& fault) {
@@ -256,7 +256,8 @@ void ExplicitComplex::sort_by_dimension(const std::vector<int>& dims) {
   std::partial_sum(first_of_dim_.begin(), first_of_dim_.end(), first_of_dim_.begin());
   of_dim_.resize(size());
   std::vector<std::size_t> next(first_of_dim_.begin(), first_of_dim_.end());
-  for (std::size_t i = 0; i < dims.size(); ++i) {  // within a dimension, in the order of the input
+  // Within a dimension, cells keep the order of the input.
+  for (std::size_t i = 0; i < dims.size(); ++i) {
     if (dims[i] == 0) vertices_.push_back(static_cast<std::uint32_t>(i));
     if (id_of_[i] < size()) of_dim_[next[dim_of(i)]++] = id_of_[i];
   }
@@ -280,7 +281,7 @@ void ExplicitComplex::build_cofacets() {
   cofacets_.cells.resize(facets_.cells.size());
   cofacets_.incidences.resize(facets_.cells.size());
   std::vector<std::size_t> next(cofacets_.offsets.begin(), cofacets_.offsets.end() - 1);
-  for (std::uint32_t id = 0; id < n; ++id) {  // ascending, which puts the oldest cofacet first
+  for (std::uint32_t id = 0; id < n; ++id) {  // the ascending order puts the oldest cofacet first
     for (std::size_t k = facets_.offsets[id]; k < facets_.offsets[id + 1]; ++k) {
       const std::size_t at = next[facets_.cells[k]]++;
       cofacets_.cells[at] = id;

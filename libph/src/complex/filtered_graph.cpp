@@ -64,8 +64,8 @@ FilteredGraph FilteredGraph::lower_star(std::span<const double> vertex_values,
                                         const RunContext& context) {
   FilteredGraph graph(vertex_values, edges.size(), context);
   const auto& births = graph.births_;
-  // An edge has the value of one of its vertices. To sort the edges it is therefore enough to sort
-  // the vertices, of which there are fewer.
+  // An edge has the value of one of its vertices. To sort the edges, it is therefore enough to sort
+  // the vertices, which are fewer.
   std::pmr::vector<std::uint32_t> order(births.size(), &context.memory);
   std::iota(order.begin(), order.end(), 0U);
   radix_sort_by_value(

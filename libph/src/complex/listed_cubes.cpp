@@ -15,10 +15,11 @@ namespace {
 
 using Coordinates = std::vector<Index>;
 constexpr Index kNotThere = -1;
-constexpr std::size_t kBytesPerEntry = 40;  // includes both the matrix and the complex made from it
+// This is the memory of both the matrix and the complex made from it.
+constexpr std::size_t kBytesPerEntry = 40;
 
-/// The cubes of an image, as points of the doubled grid: a cube has an odd coordinate along each
-/// axis in which it extends, and an even one along each other axis.
+/// The cubes of an image, as points of the doubled grid. The coordinate of a cube is odd along each
+/// axis in which the cube extends, and even along each other axis.
 class Cubes {
  public:
   Cubes(const Image& image, const CubicalOptions& options) : image_(image), options_(options) {
@@ -42,7 +43,7 @@ class Cubes {
     for (std::size_t k = 0; k < x.size(); ++k) number = number * lengths_[k] + x[k];
     return number;
   }
-  /// The value at which a cube enters, or infinity if it never does.
+  /// The value at which a cube enters, or infinity if the cube never enters.
   double value(const Coordinates& x) const {
     const double value = extreme_value(x, 0, 0);
     return value <= options_.threshold.value_or(kInfinity) ? value : kInfinity;
@@ -98,7 +99,7 @@ class Cubes {
 
 ExplicitComplex listed_cubes(const Image& image, const CubicalOptions& options,
                              const RunContext& context) {
-  const Cubical checked(image, options, context);  // refuses an invalid image
+  const Cubical checked(image, options, context);  // the constructor refuses an invalid image
   BoundaryMatrix matrix;
   if (image.values.empty()) return ExplicitComplex::from_boundary(matrix, {}, context);
   const Cubes cubes(image, options);

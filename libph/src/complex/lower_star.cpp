@@ -70,7 +70,7 @@ ExplicitComplex lower_star(const SimplexList& simplices, std::span<const double>
       throw Error(ErrorKind::resource, fmt::format("{}: found {} vertices, at most {} are possible",
                                                    where(), vertices.size(), kMostVertices));
     }
-    if (closure.contains(vertices)) continue;  // all its faces are present as well
+    if (closure.contains(vertices)) continue;  // all faces of the simplex are present as well
     for (std::size_t mask = 1; mask < (std::size_t{1} << vertices.size()); ++mask) {
       poll();
       face.clear();

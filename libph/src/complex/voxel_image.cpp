@@ -15,8 +15,8 @@
 namespace ph {
 namespace {
 
-/// The lower envelope of the parabolas (x - q)² + f(q), one per integer q, for one line of the
-/// image at a time.
+/// The lower envelope of the parabolas (x - q)² + f(q), with one parabola for each integer q. It is
+/// computed for one line of the image at a time.
 class Envelope {
  public:
   Envelope(std::size_t length, std::pmr::memory_resource* memory)
@@ -64,7 +64,7 @@ class Envelope {
   std::pmr::vector<double> heights_;
   // The integers q whose parabolas form the envelope, from left to right.
   std::pmr::vector<std::size_t> sites_;
-  std::pmr::vector<double> starts_;  // for each parabola: the point where it becomes the lowest
+  std::pmr::vector<double> starts_;  // for each parabola, the point where it becomes the lowest
 };
 
 void check(PointsView points, double voxel, Index margin) {

@@ -93,7 +93,7 @@ InputChain Barcode::representative(std::size_t i) const {
 // Without cells, equal bars are interchangeable: each run of equal births can be sorted by death in
 // place.
 void Barcode::sort_values(const RunContext& context) {
-  std::pmr::vector<Bar> buffer(&context.memory);  // takes memory only if it is used
+  std::pmr::vector<Bar> buffer(&context.memory);  // the buffer takes memory only if it is used
   const auto sort_by = [&](std::span<Bar> bars, auto&& value_of) {
     if (std::ranges::is_sorted(bars, {}, value_of)) return;
     // The bars of the highest dimension of an image arrive in this order.
@@ -110,7 +110,8 @@ void Barcode::sort_values(const RunContext& context) {
   sort_by(bars_, [](const Bar& bar) { return bar.dim; });
   for_each_run(std::span(bars_), &Bar::dim, [&](std::span<Bar> of_dim) {
     // mutant: barcode-order
-    sort_by(of_dim, [](const Bar& bar) { return bar.birth + 0.0; });  // turns -0.0 into +0.0
+    // The sum turns -0.0 into +0.0.
+    sort_by(of_dim, [](const Bar& bar) { return bar.birth + 0.0; });
     for_each_run(of_dim, &Bar::birth, [&](std::span<Bar> born_together) {
       ticker.tick();
       constexpr std::size_t many = 1024;
@@ -132,8 +133,8 @@ void Barcode::sort(const RunContext& context) {
     if (!are_sorted) sort_values(context);
     return;
   }
-  // Radix sort by death, then by birth, then by dimension. Each pass keeps the order that the
-  // previous pass produced, and -0.0 becomes +0.0.
+  // This is a radix sort by death, then by birth, then by dimension. Each pass keeps the order that
+  // the previous pass produced, and -0.0 becomes +0.0.
   struct Place {
     double value;
     std::size_t bar;
@@ -150,7 +151,8 @@ void Barcode::sort(const RunContext& context) {
     for (Place& place : order) place.value = bars_[place.bar].dim;
     radix_sort_by_value(order, value_of, context);
   }
-  // The sort is stable: bars without cells keep their order when they are written and read again.
+  // The sort is stable. Bars without cells therefore keep their order when they are written and
+  // read again.
   for (std::size_t begin = 0, end; begin < order.size(); begin = end) {
     const Bar& bar = bars_[order[begin].bar];
     for (end = begin + 1; end < order.size() && bars_[order[end].bar] == bar;) ++end;
@@ -189,7 +191,7 @@ std::size_t Barcode::longest(int dim) const {
     throw Error(ErrorKind::usage, "the barcode has no bar of dimension " + std::to_string(dim));
   }
   const auto it = std::max_element(all.begin(), all.end(), [](const Bar& a, const Bar& b) {
-    // A bar that is born at -infinity is as long as a bar that never dies; the bar that never dies
+    // A bar that is born at -infinity is as long as a bar that never dies. The bar that never dies
     // comes first.
     if (a.is_infinite() != b.is_infinite()) return b.is_infinite();
     return a.persistence() < b.persistence();

@@ -7,7 +7,8 @@ namespace ph::bits {
 
 PH_FOR_EACH_TARGET
 std::size_t first_common(const Word* a, const Word* b, std::size_t words) {
-  constexpr std::size_t block = 8;  // the words of a cache line, which are scanned without branches
+  // A block has the words of a cache line, which are scanned without branches.
+  constexpr std::size_t block = 8;
   std::size_t k = 0;
   for (; k + block <= words; k += block) {
     Word any = 0;
@@ -31,7 +32,7 @@ bool any_common(const Word* a, const Word* b, std::size_t words) {
   if (words < block) return any(0, words);
   for (std::size_t k = 0; k + block < words; k += block)
     if (any(k, k + block)) return true;
-  return any(words - block, words);  // may scan some words a second time
+  return any(words - block, words);  // some words may be scanned a second time
 }
 
 PH_FOR_EACH_TARGET

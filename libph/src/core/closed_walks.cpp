@@ -232,14 +232,14 @@ class Decomposition {
   std::size_t size_, arity_ = 1;
   Ticker ticker_;
   std::pmr::vector<Index> numbers_;  // the numbers of the start and of the end of each edge
-  std::pmr::vector<std::uint32_t> first_of_;  // for each vertex: one of the edge ends at the vertex
+  std::pmr::vector<std::uint32_t> first_of_;  // for each vertex, one of the edge ends at the vertex
   std::pmr::vector<std::uint32_t> tail_, head_;
   std::pmr::vector<std::int64_t> left_;  // remaining coefficient of each edge, from 0 to p - 1
   std::pmr::vector<std::size_t> offsets_;
   std::pmr::vector<Arc> arcs_;
-  // For each vertex: its first arc whose edge may have a nonzero coefficient.
+  // For each vertex, its first arc whose edge may have a nonzero coefficient.
   std::pmr::vector<std::size_t> next_;
-  std::pmr::vector<std::uint32_t> place_;  // for each vertex: its position on the path
+  std::pmr::vector<std::uint32_t> place_;  // for each vertex, its position on the path
   std::pmr::vector<Step> path_;
   std::vector<Walk> found_;
 };

@@ -25,9 +25,9 @@ std::string marked(std::string_view name, std::string_view value) {
 /// A part of a text: a mark, or the text between two marks.
 struct MessagePart {
   std::string_view text;            // the raw text, including the characters of a mark
-  std::string_view name = {};       // name of a mark; otherwise empty
-  std::string_view value = {};      // value of a mark
-  Setting setting = Setting::none;  // setting that the mark names
+  std::string_view name = {};       // the name of a mark, otherwise empty
+  std::string_view value = {};      // the value of a mark
+  Setting setting = Setting::none;  // the setting that the mark names
 };
 
 /// Calls `use` for all parts of a text in order. A mark that has no end counts as text.
@@ -79,8 +79,8 @@ std::string neutral(Setting setting, std::string_view value) {
   return text;
 }
 
-/// The text of all parts in the words of a program. @return nothing if the program has no name for
-/// a setting that occurs.
+/// The text of all parts in the words of a program. @return nothing if the text contains a setting
+/// for which the program has no name.
 std::optional<std::string> rendered(std::string_view text, const Words& words) {
   std::string result;
   bool has_words = true;

@@ -24,7 +24,7 @@ void require_field(std::int64_t p) {
 Zp::Zp(std::int64_t p) : p_(p) { require_field(p); }
 
 Zp::Element Zp::inverse(Element a) const {
-  // The extended Euclidean algorithm keeps r = s * a (mod p).
+  // In each step of the extended Euclidean algorithm, r = s * a (mod p).
   std::int64_t r0 = p_, r1 = a, s0 = 0, s1 = 1;
   while (r1 != 0) {
     const std::int64_t q = r0 / r1;

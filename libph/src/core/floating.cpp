@@ -31,7 +31,8 @@ bool begins_with(const char* at, const char* last, std::string_view word) {
                     [](char small, char c) { return to_lower(c) == small; });
 }
 
-/// The end of a parenthesis with letters, digits and _ after "nan"; `at` if there is none.
+/// The end of a payload after "nan", which consists of letters, digits and _ in parentheses. If
+/// there is no payload, returns `at`.
 const char* end_of_payload(const char* at, const char* last) {
   if (at == last || *at != '(') return at;
   const char* const end = std::find_if_not(
@@ -68,7 +69,7 @@ bool is_zero(std::string_view number) {
   return digits.find_first_of("123456789") == digits.npos;
 }
 
-// The C locale, because the calling program may have set a locale with a decimal comma.
+// Returns the C locale, because the calling program may have set a locale with a decimal comma.
 locale_t c_locale() {
   static const locale_t c = newlocale(LC_ALL_MASK, "C", nullptr);
   return c;

@@ -15,7 +15,8 @@ std::string format_size(double bytes) {
     bytes /= 1024;
     ++unit;
   }
-  // Shows three digits, or four from 1000 up to the next unit, because units are powers of 1024.
+  // Sizes have three digits, or four from 1000 up to the next unit, because units are powers of
+  // 1024.
   constexpr double kFourDigits = 999.5;
   return fmt::format("{:.{}g} {}", bytes, bytes >= kFourDigits ? 4 : 3, kUnits[unit]);
 }

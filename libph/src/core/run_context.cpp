@@ -22,7 +22,7 @@ namespace {
                   format_size(static_cast<double>(bytes))));
 }
 
-// Large blocks are mapped by the system and given back to it when they are freed. The C library
+// Large blocks are mapped by the system, and are returned to it when they are freed. The C library
 // would keep them in its heap, where freed blocks leave holes that no budget counts.
 bool is_large(std::size_t bytes, std::size_t alignment) {
   return bytes >= std::size_t{1} << 20 && alignment <= kSmallestPage;
@@ -87,7 +87,7 @@ void RunContext::poll() const {
 
 void RunContext::report(const Progress& progress) const {
   if (!on_progress) return;
-  // All stages share one time of the last report: otherwise many short stages in a row would never
+  // All stages share the time of the last report. Otherwise many short stages in a row would never
   // be reported.
   const auto now = std::chrono::steady_clock::now();
   if (now - last_report_ < std::chrono::milliseconds(100)) return;

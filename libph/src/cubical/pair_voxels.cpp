@@ -18,7 +18,7 @@ namespace ph::cubical {
 
 namespace {
 
-// A voxel needs a star and a node of a graph, or two ranks, of 4 bytes each.
+// A voxel needs either a star and a node of a graph or two ranks. Each of these takes 4 bytes.
 constexpr double kBytesOfVoxel = 8;
 
 bool has_few_axes(const CubicalImage& grid) { return GridShape::count_axes(grid) <= 3; }
@@ -33,8 +33,8 @@ bool may_be_cut(const CubicalImage& grid) {
 
 bool can_pair_voxels(const CubicalImage& grid, int max_dim) {
   if (StarGrid::can_hold(grid) || can_pair_cells(grid)) return true;
-  // For three axes, images with too many voxels for loops are accepted here, because no other
-  // engine can compute their loops either; `pair_voxels` refuses them if loops are wanted.
+  // Images with three axes and too many voxels for loops are accepted here, because no other engine
+  // can compute their loops either. `pair_voxels` refuses these images if loops are wanted.
   return can_be_cut(grid, {.min_dim = 0, .max_dim = max_dim});
 }
 
@@ -79,7 +79,7 @@ void pair_all_of_three_axes(StarGrid& grid, const K& field, const RunContext& co
   LoopReduction<K, StarGrid>(grid, free, squares, field, context).run(pairs);
 }
 
-// Computes all bars except the bars of loops of three axes.
+// Computes all bars except the bars of loops in images with three axes.
 void pair_by_components(const StarGrid& grid, const BarRequest& wanted, const RunContext& context,
                         PairSink& pairs) {
   if (grid.top_dim() == 3) {
@@ -97,7 +97,8 @@ void pair_by_components(const StarGrid& grid, const BarRequest& wanted, const Ru
   if (wants_vertices(grid.shape(), wanted)) pair_vertices_with_edges(grid, edges, context, pairs);
   if (wants_top_cells(grid.shape(), wanted))
     pair_facets_with_top_cells(grid, edges, context, pairs);
-  // The classes of cells that neither graph pairs never die: they are loops around periodic axes.
+  // Cells that neither graph pairs give birth to classes that never die: loops around periodic
+  // axes.
   if (grid.top_dim() < 2 || wanted.max_dim > 0)
     for (const auto& [value, cell] : edges.order)
       pairs.essential(1,
@@ -108,16 +109,16 @@ void pair_by_components(const StarGrid& grid, const BarRequest& wanted, const Ru
 // layers are processed to find out.
 bool fits(const CubicalImage& voxels, const RunContext& context) {
   if (!StarGrid::can_hold(voxels)) return false;
-  // In bytes: the least and the most memory per voxel, and the memory per critical cell.
+  // The least and the most memory per voxel, and the memory per critical cell, all in bytes.
   constexpr double least = kBytesOfVoxel, most = 168, per_cell = 64;
   const LayeredImage image(voxels);
   const auto size = static_cast<double>(image.size());
-  // Pages of a file that have been read are in memory as well.
+  // Pages of a file that have been read also take memory.
   const double in_file = voxels.is_in_file ? static_cast<double>(bytes_of(voxels.type)) : 0;
   const double left = static_cast<double>(context.memory.left()) - in_file * size;
   if (most * size < left) return true;
   if (least * size > left) return false;
-  constexpr std::uint64_t few = 1 << 12, samples = 8;  // voxels per sample, samples
+  constexpr std::uint64_t few = 1 << 12, samples = 8;  // voxels per sample, number of samples
   const std::uint64_t height = std::max(few / image.layer_size(), std::uint64_t{1});
   Slabs slabs(image, height, context);
   const std::uint64_t step = std::max(slabs.count() / samples, std::uint64_t{1});

@@ -31,8 +31,9 @@ void insert_sites(const Sites& sites, const RunContext& context, MemoryClaim& cl
 }
 
 /// Sorts the vertices of a cell in ascending order, where missing vertices (kNone) come last, and
-/// reorders the cells across its facets in the same way. Branchless, because all orders are equally
-/// likely and branches would be mispredicted. @return true if the permutation is odd.
+/// reorders the cells across its facets in the same way. The function has no branches, because all
+/// orders are equally likely and a processor would often mispredict a branch. @return true if the
+/// permutation is odd.
 inline bool sort_cell(std::array<std::uint32_t, 4>& vertices,
                       std::array<std::uint32_t, 4>& across) {
   std::array<std::uint64_t, 4> both;
@@ -94,8 +95,8 @@ void copy_cells(Triangulation& result, std::size_t sites, ForEachCell&& for_each
     for (int k = 1; k <= dim; ++k) least = std::min(least, c->vertex(k)->info());
     return least;
   };
-  // A counting sort of the finite cells by their smallest vertex. The info() of infinite cells is
-  // kNone.
+  // This counting sort orders the finite cells by their smallest vertex. The info() of infinite
+  // cells is kNone.
   std::pmr::vector<std::uint32_t> next(sites + 1, 0, &context.memory);
   std::size_t count = 0;
   for_each_cell([&](Handle c, auto&& is_finite) {

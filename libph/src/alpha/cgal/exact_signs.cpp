@@ -57,7 +57,7 @@ double exact_squared_radius(std::span<const WeightedSite> sites) {
   }
   const Number radius =
       squared_radius<Number>(std::span(points).first(sites.size()), std::span(weights));
-  // A simplex with an infinite value would never enter.
+  // A simplex with an infinite value would never enter the filtration.
   constexpr double largest = std::numeric_limits<double>::max();
   if (radius > Number(largest)) return largest;  // mutant: alpha-infinite-radius
   return CGAL::to_double(radius);
@@ -65,10 +65,10 @@ double exact_squared_radius(std::span<const WeightedSite> sites) {
 
 std::pmr::vector<std::uint32_t> insertion_order(const Sites& sites,
                                                 std::pmr::memory_resource* memory) {
-  constexpr std::size_t few = 512;  // sites in the first round
+  constexpr std::size_t few = 512;  // the number of sites in the first round
   int rounds = 1;
   for (std::size_t left = sites.size(); left > few; left /= 8) ++rounds;
-  std::mt19937_64 random(7);  // the same seed every time
+  std::mt19937_64 random(7);  // a fixed seed gives the same order in each run
   std::pmr::vector<std::uint8_t> round(sites.size(), memory);
   for (std::uint8_t& r : round)
     for (r = 0; r + 1 < rounds && (random() & 7) == 0;) ++r;

@@ -16,8 +16,8 @@ using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 inline Kernel::Point_3 point_of(const Vector<double>& p) { return {p.x, p.y, p.z}; }
 
 /// Sites in the order of a biased randomised insertion (Amenta, Choi, Rote, Incremental
-/// constructions con BRIO, 2003): each round has about eight times as many sites as the one before,
-/// and follows a path through its sites.
+/// constructions con BRIO, 2003). Each round has about eight times as many sites as the previous
+/// round, and follows a path through its sites.
 std::pmr::vector<std::uint32_t> insertion_order(const Sites& sites,
                                                 std::pmr::memory_resource* memory);
 

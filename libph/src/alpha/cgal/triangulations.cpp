@@ -110,7 +110,7 @@ Triangulation build(const Sites& sites, PointOf&& point_of_site, const RunContex
   MemoryClaim claim(context.memory, 0);
   const auto insert = [&](uint32_t site, Cell start) {
     const auto vertex = dt.insert(point_of_site(site), start);
-    // The site is hidden: nothing has changed.
+    // The site is hidden, so the triangulation has not changed.
     if (vertex == typename Dt::Vertex_handle()) return start;
     vertex->info() = site;
     return Cgal<dim>::cell_at(vertex);

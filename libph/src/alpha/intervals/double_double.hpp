@@ -6,9 +6,9 @@
 
 namespace ph::alpha {
 
-/// The unevaluated sum of two doubles. The second is at most half a unit in the last place of the
-/// first, which gives about 106 bits (Dekker, A floating-point technique for extending the
-/// available precision, 1971).
+/// The unevaluated sum of two doubles. The second double is at most half a unit in the last place
+/// of the first double. The sum therefore has about 106 significant bits (Dekker, A floating-point
+/// technique for extending the available precision, 1971).
 class DoubleDouble {
  public:
   constexpr DoubleDouble(double high = 0) : high_(high) {}
@@ -39,11 +39,11 @@ class DoubleDouble {
 
  private:
   constexpr DoubleDouble(double high, double low) : high_(high), low_(low) {}
-  static DoubleDouble sum(double a, double b) {  // Knuth: exact
+  static DoubleDouble sum(double a, double b) {  // Knuth's sum is always exact
     const double s = a + b, part = s - a;
     return {s, (a - (s - part)) + (b - part)};
   }
-  static DoubleDouble fast_sum(double a, double b) {  // exact if |a| >= |b|
+  static DoubleDouble fast_sum(double a, double b) {  // the result is exact if |a| >= |b|
     const double s = a + b;
     return {s, b - (s - a)};
   }

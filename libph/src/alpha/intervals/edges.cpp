@@ -20,11 +20,11 @@ std::size_t cell_of(Found found) { return static_cast<uint32_t>(found) >> 3; }
 unsigned edge_of(Found found) { return static_cast<unsigned>(found & 7); }
 
 /// Calls a function with each edge of a cell, unless one of the two cells that share a facet with
-/// this cell at that edge has a smaller number. Of the cells around an edge, the first always
-/// reports it, and another one hardly ever does.
+/// this cell at that edge has a smaller number. The first of the cells around an edge always
+/// reports the edge. Another cell rarely reports it.
 template <class Use>
 void for_each_first(const Triangulation& triangulation, std::size_t cell, Use&& use) {
-  // Facets with a later cell, no cell or the cell itself on the other side, as bits.
+  // A bit for each facet whose other side is a later cell, no cell or the cell itself.
   unsigned later = 0;
   for (unsigned k = 0; k < 4; ++k)
     later |= triangulation.across[cell][k] >= 4 * cell ? 1U << k : 0U;

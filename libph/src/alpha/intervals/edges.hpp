@@ -44,11 +44,11 @@ struct NumberedEdges {
     return to(larger, begin[smaller], begin[smaller + 1]);
   }
 
-  RawVector<Ends> ends;  ///< ascending; a loop has the same vertex twice
-  /// For each site: the first edge whose smaller end it is. The last entry is size().
+  RawVector<Ends> ends;  ///< in ascending order; both ends of a loop are the same vertex
+  /// For each site, the first edge that has the site as its smaller end. The last entry is size().
   std::pmr::vector<std::uint32_t> begin;
-  /// For each cell: its edges in the order of kEdgeEnds. Empty unless the space is periodic,
-  /// because only then several edges may have the same ends.
+  /// For each cell, its edges in the order of kEdgeEnds. The array is empty unless the space is
+  /// periodic, because several edges can have the same ends only in a periodic space.
   RawVector<std::array<std::uint32_t, 6>> of_cell;
 
  private:

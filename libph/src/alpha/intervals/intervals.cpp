@@ -30,7 +30,7 @@ double facet_value(const AlphaCells& cells, std::uint32_t code, const CriticalFa
     const std::uint32_t up = cells.edge_states[e].up;
     if (up == code || (up == other && other != kNone)) return cells.edge_states[e].value;
   }
-  return std::numeric_limits<double>::quiet_NaN();  // never reached
+  return std::numeric_limits<double>::quiet_NaN();  // this line is never reached
 }
 
 }  // namespace ph::alpha

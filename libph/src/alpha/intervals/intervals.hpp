@@ -25,7 +25,7 @@ struct Edge {
 /// A facet that is not paired with any simplex of its interval.
 struct CriticalFacet {
   double value = 0;
-  std::uint32_t code = 0;  ///< its usual name
+  std::uint32_t code = 0;  ///< the usual name of the facet
 };
 
 /// The vertices of a facet of a cell, ascending; below dimension 3, the last entry is kNone.
@@ -92,7 +92,7 @@ struct AlphaCells {
   std::pmr::vector<std::uint32_t> hidden;  ///< points of the input that belong to no cell
   Triangulation triangulation;
   RawVector<double> cell_values;  ///< indexed by cell of the triangulation
-  /// For each cell: a bit for each of its vertices that is outside the L of its interval.
+  /// For each cell, a bit for each of its vertices that is not in the lower end L of its interval.
   RawVector<std::uint8_t> beyond;
   std::pmr::vector<CriticalFacet> facets;  ///< sorted by code
   // The next two members are empty unless the dimension is 3.
@@ -100,11 +100,11 @@ struct AlphaCells {
   RawVector<Edge> edge_states;  ///< indexed by edge
   // The next three members are empty unless the points have weights.
   RawVector<double> vertex_values;  ///< indexed by site; if empty, all are 0
-  /// For each site: the edge with which it is paired (below dimension 3, the other end of that
-  /// edge), or kCritical if it is paired with none.
+  /// For each site, the edge with which the site is paired, or kCritical if the site is not paired.
+  /// Below dimension 3, the other end of this edge is stored instead of the edge.
   RawVector<std::uint32_t> vertex_up;
-  /// In dimension 3, for each site that is paired with an edge: a facet of the interval of the site
-  /// and the edge, or kNone if the interval has no other simplices.
+  /// In dimension 3, for each site that is paired with an edge, a facet of the interval of the site
+  /// and the edge. The entry is kNone if the interval has no other simplices.
   RawVector<std::uint32_t> vertex_facet;
 };
 
@@ -112,7 +112,7 @@ struct AlphaCells {
 /// threads.
 /// @param period the length of the space along each axis, or empty if no axis is periodic. A length
 /// of 0 means that the axis is not periodic.
-/// @throws Error as sites_of and fold_points do; Error (resource, cancelled).
+/// @throws Error as sites_of and fold_points throw it; Error (resource, cancelled).
 AlphaCells alpha_cells(PointsView points, std::span<const double> weights,
                        std::span<const double> period, const RunContext& context);
 
@@ -135,11 +135,11 @@ void find_intervals_of_plane(AlphaCells& cells, const Frames& frames, const RunC
 /// may cause, to the value of that face, and repeats this until there is no such interval.
 void make_monotone(AlphaCells& cells, const Frames& frames, const RunContext& context);
 
-/// Asserts the lemmas behind the pairing in builds with assertions; does nothing in other builds.
-/// The lemmas are: each simplex lies in exactly one interval, by exact signs, and has the value of
-/// that interval; no face has a larger value than a coface; the Euler characteristic is 1, both for
-/// all simplices and for the critical simplices. Triangulations of more than 20 000 cells are not
-/// checked, because a check takes ten times as long as everything else.
+/// Asserts the lemmas behind the pairing in builds with assertions. The function does nothing in
+/// other builds. The lemmas are: each simplex lies in exactly one interval, by exact signs, and has
+/// the value of that interval; no face has a larger value than a coface; the Euler characteristic
+/// is 1, both for all simplices and for the critical simplices. Triangulations of more than 20 000
+/// cells are not checked, because a check takes ten times as long as everything else.
 void check_lemmas(const AlphaCells& cells);
 
 }  // namespace ph::alpha

@@ -10,8 +10,8 @@ namespace {
 
 using std::uint32_t;
 
-/// Finds the intervals of a triangulation of dimension 1 or 2, each when it visits the upper end of
-/// the interval.
+/// Finds the intervals of a triangulation of dimension 1 or 2. It finds each interval when it
+/// visits the upper end of the interval.
 class PlaneIntervals {
  public:
   PlaneIntervals(AlphaCells& cells, const Frames& frames, const RunContext& context)

@@ -103,7 +103,8 @@ class SpaceIntervals {
     // mutant: alpha-facet-of-edge
     const unsigned beyond = cells_.beyond[cell], first = lowest(beyond), k = code & 3;
     const double value = cells_.cell_values[cell];
-    if (k != first) {  // paired with the edge that has neither vertex k nor vertex `first`
+    // The facet is paired with the edge that contains neither vertex k nor vertex `first`.
+    if (k != first) {
       const unsigned rest = 0b1111U & ~(1U << first) & ~(1U << k);
       pair_edge(cells_.edge_between(cell, lowest(rest), lowest(rest & (rest - 1))), code, value);
       return;
@@ -118,7 +119,7 @@ class SpaceIntervals {
     const auto [a, b] = cells_.edges.ends[e];
     Edge& state = cells_.edge_states[e];
     if (!cells_.sites.is_weighted() && is_not_empty_[e]) {
-      assert(state.up != kUnknown);  // it is the lower end of exactly one interval
+      assert(state.up != kUnknown);  // the edge is the lower end of exactly one interval
       return;
     }
     const auto& at = frames_.of_edge(e);

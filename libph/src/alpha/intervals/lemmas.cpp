@@ -20,8 +20,8 @@ namespace {
 
 using std::uint32_t;
 
-/// All simplices of a triangulation, given by their vertices. The class computes them anew in order
-/// to check the numbers and names that the pairing uses.
+/// All simplices of a triangulation, given by their vertices. The class computes the simplices a
+/// second time, in order to check the numbers and names that the pairing uses.
 class Lemmas {
  public:
   explicit Lemmas(const AlphaCells& cells) : cells_(cells) {
@@ -48,7 +48,7 @@ class Lemmas {
   }
 
  private:
-  using Vertices = std::array<uint32_t, 4>;  // ascending, filled up with kNone
+  using Vertices = std::array<uint32_t, 4>;  // in ascending order, padded with kNone
   struct Simplex {
     double value = 0;
     std::vector<uint32_t> inside;  // vertices of cofaces that lie inside its smallest sphere
@@ -106,7 +106,7 @@ class Lemmas {
   void find_intervals() {
     for (const auto& [of, simplex] : simplices_) {
       if (!simplex.inside.empty()) continue;
-      // Visits all nonempty sets of vertices that a face in the interval of `of` may lack.
+      // Visits each nonempty set of vertices that a face of `of` in the same interval may lack.
       for (unsigned set = 1; set < 1U << simplex.beyond.size(); ++set) {
         Vertices member = of;
         for (std::size_t i = 0; i < simplex.beyond.size(); ++i)

@@ -15,9 +15,9 @@ namespace {
 using P = Vector<double>;
 using std::uint32_t;
 
-// Products below this may have lost bits to underflow.
+// Products smaller than this bound may have lost bits to underflow.
 constexpr double kTiny = 1e-280;
-// The same bound for a factor: products of two larger numbers are safe.
+// The corresponding bound for a factor: the product of two numbers above it is safe.
 constexpr double kSmall = 1e-140;
 
 }  // namespace
@@ -91,7 +91,7 @@ Sphere Spheres::of_edge(uint32_t a, uint32_t b) const {
     if (squared > kTiny) return {squared / 4, 0};
     return {careful_radius({a, b}, 2), 0};
   }
-  // The centre is a + s (b - a), 2 s |b - a|² = |b - a|² + w_a - w_b.
+  // The centre is a + s (b - a), where 2 s |b - a|² = |b - a|² + w_a - w_b.
   const double difference = sites_.weights[a] - sites_.weights[b];
   const double at_b = squared + difference, at_a = squared - difference;
   const double bound = 1e-15 * (squared + std::abs(difference)) + kTiny;
@@ -139,8 +139,8 @@ double Spheres::triangle_radius(uint32_t a, uint32_t b, uint32_t c) const {
   }
   const double U = uu + (sites_.weights[a] - sites_.weights[b]);
   const double V = vv + (sites_.weights[a] - sites_.weights[c]);
-  // Squares a difference of vectors. A difference of numbers as large as U² vv would lose too many
-  // digits.
+  // This line squares a difference of vectors. A difference of numbers as large as U² vv would lose
+  // too many digits.
   const P n = U * v - V * u;
   return dot(n, n) / (4 * area) - sites_.weights[a];
 }

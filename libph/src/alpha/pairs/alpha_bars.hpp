@@ -37,8 +37,8 @@ inline Simplex cell_simplex(const AlphaCells& cells, std::uint32_t t) {
   return {cells.triangulation.cells[t], static_cast<std::size_t>(cells.dim()) + 1};
 }
 
-/// Turns pairs of simplices into bars, and passes on cycles. It is given the sites of simplices,
-/// and replaces them by points of the input.
+/// Turns pairs of simplices into bars, and passes on cycles. The class receives simplices as sites,
+/// and replaces the sites by points of the input.
 class AlphaBars {
  public:
   AlphaBars(const Alpha& alpha, BarcodeBuilder<Alpha>& bars)

@@ -5,9 +5,9 @@
 
 namespace ph::alpha {
 
-/// Computes H0 by Kruskal's algorithm on the critical edges and the elder rule. Other edges join no
-/// components. An edge that is paired with a triangle, for example, enters together with that
-/// triangle, whose other two edges already connect its ends.
+/// Computes H0 by Kruskal's algorithm on the critical edges and the elder rule. Other edges do not
+/// join components. For example, an edge that is paired with a triangle enters together with that
+/// triangle, whose other two edges already connect the ends of the edge.
 /// @param on_join called with the position in `edges` of each edge that joins components.
 template <Field K, class OnJoin>
 void pair_components(const AlphaCells& cells, const RankedSimplices& edges, const K& field,
@@ -29,7 +29,7 @@ void pair_components(const AlphaCells& cells, const RankedSimplices& edges, cons
     const double a = cells.vertex_value(u), b = cells.vertex_value(v);
     return a != b ? a < b : u < v;  // mutant: alpha-elder
   };
-  std::size_t left = sites;  // number of components
+  std::size_t left = sites;  // the number of components
   for (const std::uint32_t up : cells.vertex_up) left -= up != kCritical ? 1 : 0;
   if (bars.wants(0)) bars.expect(left, edges);
   Ticker ticker(context, "components", edges.size());

@@ -17,7 +17,7 @@ struct Ranked {
 };
 using RankedSimplices = std::pmr::vector<Ranked>;
 
-/// The critical facets from old to young; their numbers are positions in AlphaCells::facets.
+/// The critical facets from old to young. Their numbers are positions in AlphaCells::facets.
 inline RankedSimplices ranked_facets(const AlphaCells& cells, const RunContext& context) {
   RankedSimplices ranked(cells.facets.size(), &context.memory);
   for (std::uint32_t i = 0; i < ranked.size(); ++i)
@@ -27,8 +27,9 @@ inline RankedSimplices ranked_facets(const AlphaCells& cells, const RunContext& 
   return ranked;
 }
 
-/// The critical edges from old to young. Their numbers are: in dimension 3, numbers of edges; in
-/// dimension 2, positions in AlphaCells::facets; in dimension 1, numbers of cells.
+/// The critical edges from old to young. In dimension 3, their numbers are numbers of edges. In
+/// dimension 2, they are positions in AlphaCells::facets. In dimension 1, they are numbers of
+/// cells.
 inline RankedSimplices ranked_edges(const AlphaCells& cells, const RunContext& context) {
   if (cells.dim() == 2) return ranked_facets(cells, context);
   RankedSimplices ranked(&context.memory);
@@ -56,7 +57,7 @@ inline std::array<std::uint32_t, 2> ends_of(const AlphaCells& cells, const Ranke
   }
   return {cells.triangulation.cells[edge.number][0], cells.triangulation.cells[edge.number][1]};
 }
-/// Prefetches the data that `ends_of` reads. To be called some time before `ends_of`.
+/// Prefetches the data that `ends_of` reads. Should be called some time before `ends_of`.
 inline void prefetch_ends(const AlphaCells& cells, const Ranked& edge) {
   if (cells.dim() == 3)
     __builtin_prefetch(&cells.edges.ends[edge.number]);

@@ -14,7 +14,7 @@
 
 namespace ph::alpha {
 
-/// An edge that compares by its place in the filtration.
+/// An edge that is compared by its place in the filtration.
 struct EdgeName {
   double value = 0;
   std::uint32_t edge = 0;
@@ -25,9 +25,9 @@ struct EdgeName {
   }
 };
 
-/// A chain of edges under reduction, stored as a sorted list: as columns are short, merging sorted
-/// lists is faster than a heap. If the pivot is paired with a triangle inside its interval, the
-/// column adds the multiple of the boundary of this triangle that cancels the pivot. Edges that
+/// A chain of edges under reduction, stored as a sorted list. Columns are short, and merging short
+/// sorted lists is faster than a heap. If the pivot is paired with a triangle inside its interval,
+/// the column adds the multiple of the boundary of this triangle that cancels the pivot. Edges that
 /// join components are left out, because such an edge is never the youngest edge of a cycle. An
 /// object must not be shared by threads.
 template <Field K>
@@ -140,7 +140,7 @@ class EdgeColumn {
   const SimplexSet& joins_;
   const K& field_;
   const RunContext& context_;
-  std::size_t steps_ = 0;  // steps since the stop token was last polled
+  std::size_t steps_ = 0;  // the number of steps since the stop token was last polled
   std::pmr::vector<Term> terms_, merged_;
 };
 

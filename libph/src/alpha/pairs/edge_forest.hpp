@@ -124,7 +124,7 @@ class EdgeForest {
   const AlphaCells& cells_;
   const K& field_;
   const RunContext& context_;
-  std::pmr::vector<Up> up_;  // for each vertex: the edge towards the root of its tree
+  std::pmr::vector<Up> up_;  // for each vertex, the edge towards the root of its tree
   std::pmr::vector<AtVertex> heap_;
 };
 

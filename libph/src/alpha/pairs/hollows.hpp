@@ -9,11 +9,11 @@
 
 namespace ph::alpha {
 
-/// Computes homology one below the top dimension by union-find of the cells and the outside, which
-/// are joined across facets from young to old (Delfinado & Edelsbrunner, An incremental algorithm
-/// for Betti numbers of simplicial complexes, 1995). A cell that is paired with a facet is joined
-/// from the start to the cell across that facet. A facet that joins two components gives birth to a
-/// class; the oldest cell of the younger component kills it.
+/// Computes homology one dimension below the top dimension by union-find (Delfinado & Edelsbrunner,
+/// An incremental algorithm for Betti numbers of simplicial complexes, 1995). The nodes are the
+/// cells and the outside, which are joined across facets from young to old. A cell that is paired
+/// with a facet is joined from the start to the cell across that facet. A facet that joins two
+/// components gives birth to a class, and the oldest cell of the younger component kills the class.
 ///
 /// If no facet leads outside, because a periodic space closes up in all its dimensions, the last
 /// cell that enters gives birth to a class of the top dimension. The engine computes no cycles in
@@ -77,9 +77,9 @@ class Hollows {
     const std::uint32_t other = cells_.across(code);
     return other == kNone ? outside_ : other >> 2;
   }
-  /// Prefetches data of three upcoming facets. Each memory access depends on the result of the one
-  /// before, so a facet is prefetched in three steps: first as `soon`, later as `sooner`, then as
-  /// `next`.
+  /// Prefetches data of three upcoming facets. Each memory access depends on the result of the
+  /// previous access, so a facet is prefetched in three steps: first as `soon`, later as `sooner`,
+  /// then as `next`.
   void prefetch(std::uint32_t soon, std::uint32_t sooner, std::uint32_t next) const {
     __builtin_prefetch(&cells_.triangulation.across[soon >> 2]);
     sets_.prefetch(sooner >> 2);
@@ -96,7 +96,7 @@ class Hollows {
         cells_.dim() - 1, birth, value(killer), [&] { return facet_simplex(cells_, code); },
         [&] { return cell_simplex(cells_, killer); });
     if (!wants_cycle) return;
-    // The cycle is the boundary of the cells of the component, with all cells oriented alike.
+    // The cycle is the boundary of the cells of the component, all with the same orientation.
     const std::int64_t sign = sign_of(code, killer);
     rings_->for_each(killer, [&](std::uint32_t t) {
       for (std::uint32_t k = 0; k <= static_cast<std::uint32_t>(cells_.dim()); ++k) {
@@ -107,7 +107,7 @@ class Hollows {
     });
     bars_.finish_cycle(field_.is_zero(field_.from_int(2)));
   }
-  /// The incidence of a facet in the boundary of its cell, with all cells oriented alike.
+  /// The incidence of a facet in the boundary of its cell, if all cells have the same orientation.
   std::int64_t incidence(std::uint32_t facet) const {
     const bool is_negative = (facet & 1) != 0;
     return is_negative ? -sign(facet >> 2) : sign(facet >> 2);

@@ -15,11 +15,12 @@
 
 namespace ph::alpha {
 
-/// Computes H1 in dimension 3: reduces the boundaries of the triangles that union-find has not
-/// paired. Columns are reduced in the order of their place in space, not of their age, because the
-/// columns that are added to a column are then near it in memory. If a column reaches the pivot of
-/// a younger column, it takes over that pivot, and the younger column is reduced further (Morozov &
-/// Nigmetov, Towards lockfree persistent homology, 2020). As in the standard algorithm, only older
+/// Computes H1 in dimension 3 by reducing the boundaries of the triangles that union-find has not
+/// paired. Columns are reduced in the order of their place in space instead of their age, because
+/// the columns that are added to a column are then near it in memory. If a column reaches the pivot
+/// of a younger column, it takes over that pivot, and the younger column is reduced further
+/// (Morozov & Nigmetov, Towards lockfree persistent homology, 2020). As in the standard algorithm,
+/// only older columns are added to younger columns.
 /// columns are added to younger ones.
 ///
 /// In a periodic space, each boundary that is reduced to zero gives birth to an essential class of
@@ -48,7 +49,7 @@ class Loops {
     // pivot does not. If cycles are wanted, one thread therefore reduces all columns.
     const bool in_turn = bars.wants_cycles();
     const std::size_t count = column_of_.size();
-    constexpr std::size_t piece = 1 << 12;  // number of facets that a thread takes at a time
+    constexpr std::size_t piece = 1 << 12;  // the number of facets that a thread takes at a time
     std::mutex mutex;
     for_each_piece("loops", count, in_turn ? std::max<std::size_t>(count, 1) : piece, context_,
                    [&](std::size_t from, std::size_t to) {
@@ -96,7 +97,7 @@ class Loops {
                !owner.compare_exchange_weak(other, kept, std::memory_order_acq_rel)) {
         }
         if (other == nullptr) return;
-        if (column < other->number()) {  // continues with the younger facet
+        if (column < other->number()) {  // the reduction continues with the younger facet
           column = other->number();
           facet = other->facet();
         }
@@ -108,7 +109,7 @@ class Loops {
     const std::lock_guard lock(mutex_);
     essential_.push_back(facet);  // mutant: alpha-essential-facet
   }
-  /// For each edge: the critical facet that kills the class born with it, or kNone.
+  /// For each edge, the critical facet that kills the class born with the edge, or kNone.
   std::pmr::vector<std::uint32_t> killers() const {
     std::pmr::vector<std::uint32_t> facets(owners_.size(), kNone, &context_.memory);
     for (std::size_t e = 0; e < owners_.size(); ++e)
@@ -167,7 +168,7 @@ class Loops {
   const RunContext& context_;
   const SimplexSet& joins_;
   const std::span<const std::uint32_t> column_of_;
-  // For each edge: the column whose pivot it is, or null.
+  // For each edge, the column whose pivot is this edge, or null.
   std::pmr::vector<const KeptColumn*> owners_;
   std::mutex mutex_;
   std::pmr::vector<std::uint32_t> essential_;  // critical facets whose boundaries are reduced to 0

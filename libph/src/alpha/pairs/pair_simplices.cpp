@@ -9,9 +9,10 @@ namespace ph::alpha {
 
 namespace {
 
-/// Pairs dimensions 1 and 2. Edges join components, from old to young; in dimension 2, the other
-/// edges join hollows, from young to old. In a periodic space, some edges do neither and give birth
-/// to essential classes, and the top dimension may have an essential class.
+/// Pairs the simplices of dimensions 1 and 2. First, edges join components, from old to young. In
+/// dimension 2, the other edges then join hollows, from young to old. In a periodic space, some
+/// edges join neither and give birth to essential classes, and the top dimension may have an
+/// essential class.
 template <Field K>
 void pair_plane(const AlphaCells& cells, const K& field, const RunContext& context,
                 AlphaBars& bars) {
@@ -36,8 +37,8 @@ void pair_plane(const AlphaCells& cells, const K& field, const RunContext& conte
       });
 }
 
-/// Pairs dimension 3. Edges join components and triangles join hollows; Loops pairs the remaining
-/// edges and triangles. Lists are freed as soon as they are no longer needed.
+/// Pairs the simplices of dimension 3. Edges join components, and triangles join hollows. Loops
+/// pairs the remaining edges and triangles. Lists are freed as soon as they are no longer needed.
 template <Field K>
 void pair_space(const AlphaCells& cells, const K& field, const RunContext& context,
                 AlphaBars& bars) {

@@ -40,8 +40,8 @@ void check_periods(PointsView points, std::span<const double> period) {
                               axis, period[axis]));
 }
 
-/// Returns the power of two that is contained between 2^50 and 2^51 times in `size`; for tiny
-/// sizes, the smallest positive double.
+/// Returns the power of two that is contained between 2^50 and 2^51 times in `size`. For tiny
+/// sizes, returns the smallest positive double.
 double unit_of(double size) {
   constexpr int bits = 51, least = -1074;
   return std::ldexp(1.0, std::max(std::ilogb(size) + 1 - bits, least));
@@ -78,7 +78,7 @@ Folded fold_points(PointsView points, std::span<const double> weights,
     for (Index i = 0; i < points.rows(); ++i) {
       double& x = folded.points(i, static_cast<Index>(axis));
       if (!std::isfinite(x)) continue;
-      x = rounded(std::fmod(x, length), unit);  // std::fmod is exact
+      x = rounded(std::fmod(x, length), unit);  // the result of std::fmod is exact
       if (x < 0) x += length;                   // mutant: alpha-fold
       if (x >= length) x -= length;
     }

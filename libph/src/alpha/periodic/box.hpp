@@ -27,16 +27,16 @@ struct Box {
   }
 };
 
-/// The points after each has been moved into the box by entire periods.
+/// The points after each point has been moved into the box by entire periods.
 struct Folded {
   Points points;
   Box box;
 };
 
-/// Takes the coordinates along closed axes modulo the periods. Coordinates and periods are first
+/// Reduces the coordinates along closed axes modulo the periods. Coordinates and periods are first
 /// rounded to multiples of a power of two, which changes them by at most 2^-51 of the size of the
-/// box; no rounding is needed to add entire periods afterwards. Numbers that already are such
-/// multiples do not change, and neither do coordinates along open axes.
+/// box. After that, adding entire periods needs no rounding. Numbers that already are such
+/// multiples do not change. Coordinates along open axes do not change.
 /// @param period the period of each axis; 0 if the axis is open. At least one axis is closed.
 /// @throws Error (usage) unless there is one period per axis, and none of them is negative or
 /// infinite; Error (bad_data) if a period rounds to 0, or if the size is beyond the range of

@@ -49,7 +49,7 @@ struct Images {
   Sites places;                          ///< the images as sites of a space that is not periodic
   std::pmr::vector<std::uint32_t> site;  ///< indexed by place
   std::pmr::vector<Translation> translation;  ///< indexed by place
-  /// For each site: its first place. The last entry is the number of places.
+  /// For each site, its first place. The last entry is the number of places.
   std::pmr::vector<std::uint32_t> begin;
   /// The frame of each cell of the quotient and, in dimension 3, of each edge. A frame consists of
   /// places of the vertices that are near each other.
@@ -64,7 +64,7 @@ struct Images {
   }
 };
 
-/// For a point: how far images of the point are wanted beyond the closed faces of the box.
+/// For a point, the distance beyond the closed faces of the box up to which its images are wanted.
 using Margin = std::function<double(const Vector<double>&)>;
 
 /// Lists all images of the sites up to their margins.

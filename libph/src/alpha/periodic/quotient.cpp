@@ -11,7 +11,7 @@ namespace {
 using std::uint32_t;
 using Cell = std::array<uint32_t, 4>;
 
-/// For cells sorted by their smallest vertex: the first cell of each vertex.
+/// For cells sorted by their smallest vertex, the first cell of each vertex.
 std::pmr::vector<uint32_t> cells_by_vertex(const RawVector<Cell>& cells, std::size_t vertices,
                                            std::pmr::memory_resource* memory) {
   std::pmr::vector<uint32_t> begin(vertices + 1, 0, memory);
@@ -49,8 +49,8 @@ class Quotient {
  private:
   Translation translation(uint32_t place) const { return images_.translation[place]; }
 
-  /// The translation by which a cell lies away from the box: on each axis, the median of the
-  /// translations of its vertices. All translates of a cell become the same cell when this
+  /// The translation of a cell relative to the box. On each axis, it is the median of the
+  /// translations of the vertices. All translates of a cell become the same cell when this
   /// translation is undone.
   Translation home(const Cell& cell) const {
     const Translation first = translation(cell[0]);
@@ -125,7 +125,8 @@ class Quotient {
     if (dim == closed)
       return std::all_of(seen.begin(), seen.begin() + static_cast<std::ptrdiff_t>(count),
                          [&](const auto& p) { return p == seen[0]; });
-    return are_collinear(seen);  // in dimension 2 with one closed axis
+    // This case has dimension 2 and one closed axis.
+    return are_collinear(seen);
   }
 
   bool glue_facets() {
@@ -151,8 +152,8 @@ class Quotient {
       }
     return !kept_.empty();
   }
-  /// For collinear sites along a closed axis: true if each site has one edge before it and one edge
-  /// after it, or (if it is hidden) no edge.
+  /// True if each site has one edge before it and one edge after it, or (if it is hidden) no edge.
+  /// Precondition: the sites are collinear, along a closed axis.
   bool is_closed_line() const {
     std::pmr::vector<uint32_t> before(sites_, 0, &context_.memory), behind = before;
     for (const Cell& places : of_cell_) {
@@ -203,11 +204,11 @@ class Quotient {
   const Images& images_;
   const Box& box_;
   const RunContext& context_;
-  const std::size_t size_;   // vertices per cell
-  const std::size_t sites_;  // number of sites
-  // For each unrolled cell: the number of the kept cell that is a translate of it, or kNone.
+  const std::size_t size_;   // the number of vertices of a cell
+  const std::size_t sites_;  // the number of sites
+  // For each unrolled cell, the number of the kept cell that is its translate, or kNone.
   std::pmr::vector<uint32_t> number_;
-  std::pmr::vector<uint32_t> begin_;  // for each site: the kept cells whose smallest vertex it is
+  std::pmr::vector<uint32_t> begin_;  // for each site, the kept cells with this smallest vertex
   std::pmr::vector<uint32_t> kept_;   // the unrolled cells that are kept, by number
   Triangulation result_;
   RawVector<Cell> of_cell_;

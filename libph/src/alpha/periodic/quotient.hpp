@@ -11,8 +11,8 @@ namespace ph::alpha {
 /// `images.of_cell` receives the places of its vertices.
 ///
 /// Returns true if the result is the Delaunay triangulation of the periodic space, and false if
-/// there were too few images around the box. The following conditions, all of which are checked or
-/// always true, guarantee this:
+/// there were too few images around the box. The result is this triangulation under the following
+/// conditions, all of which are checked or always true:
 /// - On either side of a facet there is a cell that is a translate of a kept cell, and the two
 ///   cells name each other. The only exceptions are facets whose plane contains the directions of
 ///   all closed axes, with all images on one side of the plane. Unrolled, the cells therefore cover
@@ -26,7 +26,7 @@ namespace ph::alpha {
 bool take_quotient(Triangulation& triangulation, Images& images, const Box& box,
                    const RunContext& context);
 
-/// A triangulation of a periodic space, of any number of sites.
+/// A triangulation of a periodic space with any number of sites.
 struct PeriodicTriangulation {
   Triangulation triangulation;  ///< vertices are sites; a cell may have a site several times
   Images images;                ///< including the frames of the cells

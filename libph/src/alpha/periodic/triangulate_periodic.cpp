@@ -12,10 +12,10 @@ namespace {
 
 std::array<double, 3> coordinates(const Vector<double>& p) { return {p.x, p.y, p.z}; }
 
-/// A margin that is likely to be enough if the sites are uniformly distributed. In the interior it
-/// is the radius of the largest empty sphere plus the usual size of a cell. Near the end of an open
-/// axis, only a cap of an empty sphere lies among the sites. The flatter this cap, the wider it is,
-/// up to the diagonal of the box along its closed axes.
+/// A margin that is likely to be enough if the sites are uniformly distributed. In the interior,
+/// the margin is the radius of the largest empty sphere plus the usual size of a cell. Near the end
+/// of an open axis, only a cap of an empty sphere is among the sites. The flatter this cap is, the
+/// wider it is, up to the diagonal of the box along its closed axes.
 class LikelyMargin {
  public:
   LikelyMargin(const Sites& sites, const Box& box) : box_(box) {
@@ -34,7 +34,7 @@ class LikelyMargin {
       measure *= extent;
       ++dim_;
     }
-    constexpr double few = 8;  // found by trial; with this value, hardly any run must start again
+    constexpr double few = 8;  // found by trial: with this value, a run rarely has to start again
     inside_ = std::min(around_, std::pow(measure / count * (std::log(count) + few), 1.0 / dim_));
   }
   double inside() const { return inside_; }
@@ -47,7 +47,7 @@ class LikelyMargin {
         depth = std::min(
             {depth, coordinates(p)[axis] - low_[axis], high_[axis] - coordinates(p)[axis]});
     if (depth == inside_ || inside_ >= around_) return inside_;
-    const double flat = inside_ / depth;  // holds as many sites as an interior sphere
+    const double flat = inside_ / depth;  // contains as many sites as an interior sphere
     return std::min(around_, inside_ * std::pow(flat, 1.0 / (dim_ - 1)));
   }
 

@@ -28,7 +28,7 @@ void check_values(const Alpha& alpha, double value, std::string_view what) {
   throw Error(ErrorKind::usage, std::string(what) + ": found nan, expected a value");
 }
 
-/// The surface of a subcomplex.
+/// Computes the surface of a subcomplex.
 /// @param has_cell, has_facet return true if a cell, or a facet given by its usual name, belongs to
 /// the subcomplex.
 template <class HasCell, class HasFacet>

@@ -6,7 +6,7 @@
 
 namespace ph::alpha {
 
-/// Spreads the bits of a number: puts N - 1 zeros before each bit.
+/// Spreads the bits of a number by putting N - 1 zeros before each bit.
 template <std::size_t N>
 std::uint64_t spread(std::uint64_t x) {
   static_assert(N == 2 || N == 3);

@@ -58,7 +58,7 @@ double largest_magnitude(PointsView points, std::span<const double> weights) {
 
 /// Multiplies by 2^-exponent. @throws Error (bad_data) unless the result is exact.
 double scaled(double x, int exponent, Index point) {
-  const double result = times_power_of_two(x, -exponent) + 0.0;  // turns -0 into 0
+  const double result = times_power_of_two(x, -exponent) + 0.0;  // the sum turns -0 into 0
   if (times_power_of_two(result, exponent) != x)                 // mutant: alpha-bits-lost
     throw Error(ErrorKind::bad_data,
                 fmt::format("point {}: found {:g} beside numbers about as large as 2^{}, expected "
@@ -137,8 +137,8 @@ Sites sites_of(PointsView points, std::span<const double> weights, const RunCont
 
   Ticker ticker(context, "spatial order", count);
   auto order = along_curve(scaled_points, sites.coordinates, ticker, context);
-  // Points in the same cell of the curve are sorted by coordinates; copies are sorted by weight,
-  // then by number.
+  // Points in the same cell of the curve are sorted by coordinates. Copies of a point are sorted by
+  // weight, then by number.
   const auto precedes = [&](const Placed& a, const Placed& b) {
     if (a.place != b.place) return a.place < b.place;
     const Vector<double>&p = scaled_points[a.point], &q = scaled_points[b.point];

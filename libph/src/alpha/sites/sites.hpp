@@ -32,18 +32,18 @@ struct Sites {
   int exponent = 0;
   RawVector<Vector<double>> points;  ///< indexed by site
   std::pmr::vector<double> weights;  ///< indexed by site, or empty if no point has a weight
-  /// For each site: the point of the input at this place; if there are several, the first of them.
+  /// For each site, the first point of the input at this place.
   std::pmr::vector<std::uint32_t> input;
-  /// The other copies: each point of the input that is a copy, with its site.
+  /// The other points of the input at the same places. Each entry is such a copy and its site.
   std::pmr::vector<std::array<std::uint32_t, 2>> copies;
   /// All sites in an order that keeps neighbours in space close together; empty if the numbers of
   /// the sites already give such an order.
   std::pmr::vector<std::uint32_t> path;
 };
 
-/// Makes sites of the points. @param points points of R¹, R² or R³. @param weights one weight per
-/// point, or none. If points at the same place have different weights, the heaviest becomes the
-/// site and the others are its copies.
+/// Makes sites of the points. If points at the same place have different weights, the heaviest
+/// point becomes the site, and the others are its copies. @param points points of R¹, R² or R³.
+/// @param weights one weight for each point, or none.
 /// @throws Error (usage) if the points are in another space, or if the number of weights is not the
 /// number of points; Error (bad_data) if a number is not finite, or if coordinates differ too much
 /// in magnitude; Error (resource, cancelled).

@@ -7,8 +7,9 @@
 
 namespace ph::alpha {
 
-/// The squared radius of the smallest sphere through two, three or four points or, with weights,
-/// orthogonal to them: |z - p|² - w for each point, where z is the centre.
+/// The squared radius of the smallest sphere through two, three or four points. With weights, the
+/// sphere is orthogonal to the points instead: the squared radius is |z - p|² - w for each point,
+/// where z is the centre.
 /// @tparam T a field type with more than double precision.
 template <class T>
 T squared_radius(std::span<const Vector<T>> points, std::span<const T> weights) {

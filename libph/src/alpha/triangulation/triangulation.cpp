@@ -15,7 +15,7 @@ Triangulation triangulate(const Sites& sites, const RunContext& context) {
 
 void remove_hidden(Sites& sites, Triangulation& triangulation,
                    std::pmr::vector<std::uint32_t>& hidden) {
-  // Among copies, the heaviest one hides the others.
+  // The heaviest copy hides the others.
   // mutant: alpha-hidden-copies
   for (const auto& [copy, site] : sites.copies) hidden.push_back(copy);
   sites.copies.clear();

@@ -7,7 +7,7 @@
 
 #include "libph/src/alpha/triangulation/triangulation.hpp"
 
-// Declares what the library computes with CGAL, without including CGAL.
+// This header declares what the library computes with CGAL, without including CGAL.
 namespace ph::alpha {
 
 /// The triangulation in the plane of x and y. Precondition: there is at least one site.
@@ -22,16 +22,16 @@ struct WeightedSite {
   double weight = 0;
 };
 /// True if a site lies strictly inside the smallest sphere through one to three others, which must
-/// be affinely independent. With weights: true if it has negative power with respect to the
-/// smallest sphere orthogonal to them. Exact.
+/// be affinely independent. With weights, true if the site has negative power with respect to the
+/// smallest sphere orthogonal to the others. The result is exact.
 bool is_inside(std::span<const WeightedSite> others, const WeightedSite& site);
 
-/// True if three points lie on one line. Exact.
+/// True if three points lie on one line. The result is exact.
 bool are_collinear(const std::array<Vector<double>, 3>& points);
 
 /// The squared radius of the smallest sphere through two to four sites or, with weights, orthogonal
-/// to them. It is correct except for the last bit, however flat the sites lie, and at most the
-/// largest double.
+/// to them. The result is correct except for the last bit, even if the sites are almost in a plane
+/// or on a line. It is at most the largest double.
 double exact_squared_radius(std::span<const WeightedSite> sites);
 
 }  // namespace ph::alpha

@@ -53,9 +53,9 @@ int open_nameless(const std::string& folder) {
 
 void forget_file_pages(const void* begin, std::size_t bytes) {
   if (bytes == 0) return;
-  // Includes the pages at both ends, even if the range covers them only in part: otherwise a file
-  // that is given back block by block would leave one page per block in memory. These pages belong
-  // to the mapping, because some of their bytes do.
+  // The range includes the pages at both ends, even if it covers them only in part. Otherwise a
+  // file that is released block by block would leave one page of each block in memory. These pages
+  // belong to the mapping, because some of their bytes belong to it.
   const auto page = static_cast<std::uintptr_t>(::sysconf(_SC_PAGESIZE));
   const auto address = reinterpret_cast<std::uintptr_t>(begin);
   const std::uintptr_t first = address / page * page;
@@ -71,7 +71,8 @@ ScratchFile::~ScratchFile() {
 
 void ScratchFile::resize(std::size_t bytes) {
   if (bytes == size_) return;
-  // Reserves room now, because a write to a mapped page without room would end the program.
+  // Space is reserved now, because a write to a mapped page without disk space would end the
+  // program.
   const auto length = static_cast<off_t>(bytes);
   const int error = bytes > size_ ? ::posix_fallocate(file_, 0, length)
                                   : (::ftruncate(file_, length) == 0 ? 0 : errno);
@@ -95,7 +96,8 @@ ResidentFiles::~ResidentFiles() {
 }
 
 std::size_t ResidentFiles::bytes() const {
-  // The fields count pages: all pages, resident pages, resident pages of files and shared memory, …
+  // The fields count pages. They are all pages, resident pages, resident pages of files and shared
+  // memory, …
   std::array<char, 128> text{};
   const ssize_t got = ::pread(file_, text.data(), text.size() - 1, 0);
   std::size_t pages = 0;

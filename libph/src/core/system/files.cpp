@@ -95,7 +95,7 @@ std::filesystem::path resolved(const std::filesystem::path& path) {
 }
 
 std::optional<int> descriptor_named(std::filesystem::path path) {
-  constexpr int kMostLinks = 40;  // the system's limit
+  constexpr int kMostLinks = 40;  // the limit of the system
   std::error_code error;
   for (int links = 0; links <= kMostLinks; ++links) {
     const std::string name = path.filename();
@@ -180,7 +180,7 @@ std::ptrdiff_t write_some(int file, const char* from, std::size_t most) {
     const ssize_t written = ::write(file, from, most);
     if (written >= 0) return written;
     if (errno == EAGAIN || errno == EWOULDBLOCK) {
-      // Another program has made standard output non-blocking: waits until there is room.
+      // Another program has made standard output non-blocking, so this waits until there is room.
       pollfd room{file, POLLOUT, 0};
       if (::poll(&room, 1, -1) < 0 && errno != EINTR) return -1;
     } else if (errno != EINTR) {

@@ -37,7 +37,7 @@ std::optional<std::uint64_t> control_group_limit(std::istream& memberships,
     if (!unified && ("," + controllers + ",").find(",memory,") == std::string::npos) continue;
     const std::string mount = unified ? root : root + "/memory";
     const std::string file = unified ? "/memory.max" : "/memory.limit_in_bytes";
-    // The limits of enclosing groups apply as well: "/a/b", then "/a", then "".
+    // The limits of the enclosing groups apply as well. The loop visits "/a/b", then "/a", then "".
     for (std::string group = line.substr(second + 1);; group.resize(group.rfind('/'))) {
       const auto limit = number_in(mount + group + file);
       if (limit) least = std::min(least.value_or(*limit), *limit);

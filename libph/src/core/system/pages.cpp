@@ -20,7 +20,7 @@ void advise(void* block, std::size_t bytes, std::size_t page, int advice) {
   if (std::align(page, page, block, bytes) != nullptr) madvise(block, bytes / page * page, advice);
 }
 
-// Rounds up to complete pages; a size beyond the address space stays too large.
+// Rounds up to complete pages. A size beyond the address space remains too large.
 std::size_t round_up(std::size_t bytes, std::size_t page) {
   const std::size_t rest = (page - bytes % page) % page;
   return bytes > SIZE_MAX - rest ? SIZE_MAX : bytes + rest;
@@ -29,7 +29,8 @@ std::size_t round_up(std::size_t bytes, std::size_t page) {
 }  // namespace
 
 std::size_t mapped_size(std::size_t bytes) {
-  constexpr std::size_t nearly = 5;  // only if at most a fifth of the block stays unused
+  // A huge page is used only if at most a fifth of the block stays unused.
+  constexpr std::size_t nearly = 5;
   static const auto page = static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
   const std::size_t huge = round_up(bytes, kHugePage);
   return huge - bytes > bytes / nearly ? round_up(bytes, page) : huge;
@@ -37,8 +38,8 @@ std::size_t mapped_size(std::size_t bytes) {
 
 void* map_pages(std::size_t bytes) {
   const std::size_t size = mapped_size(bytes);
-  // A huge page begins at a multiple of its size. More memory is therefore mapped, and the memory
-  // before and after the block is given back.
+  // A huge page begins at a multiple of its size. More memory is therefore mapped than needed, and
+  // the memory before and after the block is returned to the system.
   const std::size_t room = size + kHugePage;
   if (room < size) throw std::bad_alloc();
   void* const all = mmap(nullptr, room, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);

@@ -118,8 +118,8 @@ void CellComponents::join(std::pmr::vector<Name>& bridges,
       continue;
     }
     std::optional<Name> younger = name_of(dies), elder = name_of(lives);
-    // A node that was always there is older than all others. Among top cells, which enter
-    // backwards, the later cell counts as older.
+    // A node that was always there is older than all others. Top cells enter in reverse order, so
+    // the later cell counts as older.
     if (!younger || (elder && (backwards_ ? *younger > *elder : *younger < *elder))) {
       std::swap(dies, lives);
       std::swap(younger, elder);

@@ -15,9 +15,10 @@ namespace ph::cubical {
 
 /// Persistent components of one of the two graphs of a grid. The first graph has vertices, joined
 /// by edges in the order in which the edges enter. The second graph has top cells, joined by facets
-/// in reverse order, youngest first. It also has nodes that were always there: the outside, which
-/// has two parts if only one axis has ends, and cells that never enter. Pairs of cells within a
-/// star (arrows) give the first parents; bridges then join components by the elder rule.
+/// in reverse order, youngest first. The second graph also has nodes that were always there. They
+/// are cells that never enter, and the outside, which has two parts if only one axis has ends.
+/// Pairs of cells within a star (arrows) give the first parents. Bridges then join components by
+/// the elder rule.
 class CellComponents {
  public:
   using Name = CellGrid::Name;
@@ -27,8 +28,8 @@ class CellComponents {
   CellComponents(const CellGrid& grid, Graph graph, const RunContext& context);
 
   /// Joins components across bridges, in the order given.
-  /// @param bridges edges or facets in no known pair, in the order of the filtration; the function
-  /// removes the bridges that join components.
+  /// @param bridges edges or facets that are in no known pair, in the order of the filtration; the
+  /// function removes the bridges that join components.
   /// @param on_merge called with (bridge, node that dies); the node is nothing if both components
   /// were always there.
   void join(std::pmr::vector<Name>& bridges,
@@ -46,7 +47,7 @@ class CellComponents {
   std::uint32_t beyond(std::uint32_t cell, const CellGrid::Coordinates& x, int direction,
                        int steps) const;
   std::array<std::uint32_t, 2> ends(std::uint32_t bridge) const;
-  /// The name of a node, or nothing if it was always there.
+  /// The name of a node, or nothing if the node was always there.
   std::optional<Name> name_of(std::uint32_t node) const;
   void follow_arrows();
   void join_what_never_enters();

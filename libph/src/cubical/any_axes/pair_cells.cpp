@@ -87,8 +87,8 @@ void pair_cells(const CubicalImage& image, const K& field, int max_dim, bool wan
   CellPairing pairing(grid, sink, context);
   pairing.pair_vertices();
   if (max_dim > 0) {
-    // Starts from the top dimension, because cells that give birth to a class then need no columns.
-    // Their columns would be the longest, and would be reduced to zero.
+    // Pairing starts from the top dimension, because cells that give birth to a class then need no
+    // columns. Their columns would be the longest, and would be reduced to zero.
     if (grid.dim() > 1) pairing.pair_top_cells();
     for (int dim = grid.dim() - 2; dim > 0; --dim) pairing.pair_between(dim, field);
     pairing.add_loops();

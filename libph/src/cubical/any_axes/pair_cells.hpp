@@ -12,9 +12,9 @@ bool can_pair_cells(const CubicalImage& grid);
 /// The number of bytes that `pair_cells` keeps for the marks of all cells.
 double bytes_of_cells(const CubicalImage& grid);
 
-/// Does the same as `pair_voxels` for any number of axes: union-find in the lowest and the highest
-/// dimension, and a reduction of critical cells between these dimensions. Memory: 8 bytes per
-/// voxel, 2 per cell (2^d cells per voxel), and the critical cells.
+/// Does the same as `pair_voxels` for any number of axes. It uses union-find in the lowest and the
+/// highest dimension, and reduces critical cells between these dimensions. Memory: 8 bytes per
+/// voxel, 2 bytes per cell (there are 2^d cells per voxel for d axes), and the critical cells.
 template <Field K>
 void pair_cells(const CubicalImage& image, const K& field, int max_dim, bool wants_cells,
                 const RunContext& context, const BarSink& bars);

@@ -15,10 +15,10 @@
 
 namespace ph::cubical {
 
-/// A chain of cells under reduction. If the pivot is a cell that is killed inside its star, the
-/// pivot is replaced by the rest of the boundary of its killer; a chain is therefore expanded only
-/// down to its pivot. Cells that kill other cells are left out, because such a cell is never the
-/// youngest cell of a cycle. An object must not be shared by threads.
+/// A chain of cells under reduction. If the pivot is a cell that is killed inside its star, it is
+/// replaced by the rest of the boundary of its killer. A chain is therefore expanded only down to
+/// its pivot. Cells that kill other cells are left out, because such a cell is never the youngest
+/// cell of a cycle. An object must not be shared by threads.
 template <Field K>
 class BoundaryColumn {
  public:
@@ -47,14 +47,14 @@ class BoundaryColumn {
   std::optional<Term> take_pivot() {
     return heap_.take_pivot([this](const Term& term) { return replace(term); });
   }
-  /// Called before the chain is kept: replaces about as many cells below the pivot as the chain has
-  /// terms. Columns that the chain is added to then need not replace these cells again, and many
+  /// Called before the chain is kept. Replaces about as many cells below the pivot as the chain has
+  /// terms. Columns to which the chain is added then need not replace these cells again, and many
   /// terms cancel.
   /// @return the pivot; all other cells are older.
   std::optional<Term> settle(const Term& pivot) {
     return heap_.follow(pivot, heap_.size(), [this](const Term& term) { return replace(term); });
   }
-  /// The terms of the chain, each cell once, from young to old.
+  /// The terms of the chain, from young to old. Each cell occurs once.
   std::span<const Term> consolidate() { return heap_.consolidate(); }
 
  private:
@@ -103,7 +103,7 @@ class BoundaryColumn {
   const CellGrid& grid_;
   const K& field_;
   const RunContext& context_;
-  std::size_t steps_ = 0;  // steps since the stop token was last polled
+  std::size_t steps_ = 0;  // the number of steps since the stop token was last polled
   ChainHeap<K, Term, &BoundaryColumn::precedes> heap_;
 };
 

@@ -11,8 +11,8 @@
 
 namespace ph::cubical {
 
-/// Computes homology in a dimension between the lowest and the highest: reduces the boundaries of
-/// the cells of one dimension with ParallelReduction.
+/// Computes homology in a dimension between the lowest and the highest. It reduces the boundaries
+/// of the cells of one dimension with ParallelReduction.
 template <Field K>
 class BoundaryReduction {
   using Chain = BoundaryColumn<K>;
@@ -40,7 +40,7 @@ class BoundaryReduction {
   /// reduced to zero.
   template <class OnPair>
   void run(OnPair&& on_pair) {
-    constexpr std::size_t piece = 64;  // number of columns that a thread takes at a time
+    constexpr std::size_t piece = 64;  // the number of columns that a thread takes at a time
     reduction_.run(
         "boundaries", piece, [&] { return Chain(grid_, field_, context_); },
         [&](Chain& column, std::uint32_t i) { column.assign_boundary(CellGrid::cell(names_[i])); },
@@ -68,7 +68,7 @@ class BoundaryReduction {
   const Column*& owner_of(Name row) { return *owners_.find(CellGrid::cell(row)); }
 
   const CellGrid& grid_;
-  std::span<const Name> names_;  // names of the columns
+  std::span<const Name> names_;  // the names of the columns
   const K& field_;
   const RunContext& context_;
   FlatMap<const Column*> owners_;  // indexed by row; null if the row is not a pivot

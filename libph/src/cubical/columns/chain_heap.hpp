@@ -11,10 +11,10 @@
 
 namespace ph::cubical {
 
-/// A chain as a heap, youngest cell first; a cell may occur several times. When chains are added,
-/// most terms cancel, but terms far older than the youngest cell would stay until they reach the
-/// top. The heap is therefore consolidated whenever it has grown to three times its consolidated
-/// size.
+/// A chain as a heap, youngest cell first. A cell may occur several times. When chains are added,
+/// most terms cancel. Terms far older than the youngest cell, however, would stay until they reach
+/// the top. The heap is therefore consolidated whenever it has grown to three times its
+/// consolidated size.
 /// @tparam Term an Entry. @tparam precedes true if its first argument is older than the second. It
 /// should be branchless, because processors cannot predict the result.
 template <Field K, class Term, auto precedes>
@@ -54,8 +54,8 @@ class ChainHeap {
     }
     return std::nullopt;
   }
-  /// Removes and returns the youngest cell that `replace` does not replace; nothing if there is
-  /// none.
+  /// Removes and returns the youngest cell that `replace` does not replace. Returns nothing if
+  /// there is no such cell.
   /// @param replace called with a term: if the term has a replacement, adds it to this chain and
   /// returns true.
   template <class Replace>
@@ -82,8 +82,8 @@ class ChainHeap {
     add([&](auto& terms) { terms.insert(terms.end(), stay_.begin(), stay_.end()); });
     return take_pivot(replace);  // mutant: chain-replace
   }
-  /// The terms of the chain, each cell once, from young to old; a list in this order is also a
-  /// heap.
+  /// The terms of the chain, from young to old. Each cell occurs once. A list in this order is also
+  /// a heap.
   std::span<const Term> consolidate() {
     std::sort(terms_.begin(), terms_.end(),
               [](const Term& a, const Term& b) { return precedes(b.cell, a.cell); });
@@ -113,7 +113,7 @@ class ChainHeap {
     if (!terms_.empty()) sift_down(0, last);
     return top;
   }
-  // Puts a term at a position or further down, where it keeps the heap valid.
+  // Puts a term at a position or further down, so that the heap remains valid.
   void sift_down(std::size_t place, const Term term) {
     Term* const terms = terms_.data();
     const std::size_t size = terms_.size();

@@ -13,7 +13,8 @@ namespace ph::cubical {
 template <unsigned rank_bits>
 struct OrderedCell {
   std::uint64_t key;  ///< has the same order as the value
-  /// High bits: the number of the voxel in the entire grid. Low bits: the rank of the direction.
+  /// The high bits are the number of the voxel in the entire grid. The low bits are the rank of the
+  /// direction.
   std::uint64_t name;
 
   static OrderedCell of(double value, std::uint64_t voxel, int rank) {

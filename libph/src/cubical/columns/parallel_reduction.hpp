@@ -25,22 +25,22 @@ struct NumberedByAge {
   static bool is_older(std::uint32_t a, std::uint32_t b) { return a < b; }
 };
 
-/// Reduces the columns of a boundary matrix by adding only older ones. Several threads reduce
+/// Reduces the columns of a boundary matrix by adding only older columns. Several threads reduce
 /// columns at the same time. An older column may take a pivot from a younger column, which is then
 /// reduced further in the next round (Morozov & Nigmetov, Towards lockfree persistent homology,
 /// 2020). The pairs do not depend on the order in which threads run. Each step of a column reads
-/// memory at random places; a thread therefore alternates between several columns, and prefetches
-/// the data for the next step of each.
-/// @tparam Chain a working column, such as BoundaryColumn. `settle(pivot)`, if Chain has it, is
+/// memory at random places. A thread therefore alternates between several columns, and prefetches
+/// the data for the next step of each column.
+/// @tparam Chain a working column, such as BoundaryColumn. If Chain has `settle(pivot)`, it is
 /// called before a chain is kept, and returns the pivot.
 /// @tparam Ages `is_older(a, b)`: true if column a is older than column b, given their numbers.
 template <Field K, class Chain, class Ages = NumberedByAge>
 class ParallelReduction {
  public:
   using Term = typename Chain::Term;
-  /// A reduced column: the boundary of a cell plus the boundaries that were added to it. Cells
-  /// older than the pivot need not have been expanded. The terms below the pivot follow the object
-  /// in memory, because reading the pivot then also loads them.
+  /// A reduced column, which is the boundary of a cell plus the boundaries that were added to it.
+  /// Cells older than the pivot need not have been expanded. The terms below the pivot follow the
+  /// object in memory, because reading the pivot then also loads them.
   class Column {
    public:
     Column(const Term& pivot, std::uint32_t number, std::uint32_t size)
@@ -56,9 +56,9 @@ class ParallelReduction {
 
   static constexpr std::size_t kLanes = 8;
 
-  /// @param size number of columns.
-  /// @param lanes number of columns between which a thread alternates. With one lane and one piece,
-  /// the columns are those of the standard algorithm.
+  /// @param size the number of columns.
+  /// @param lanes the number of columns between which a thread alternates. With one lane and one
+  /// piece, the reduced columns equal the columns of the standard algorithm.
   ParallelReduction(std::size_t size, const K& field, const RunContext& context,
                     std::size_t lanes = kLanes, const Ages& ages = {})
       : field_(field),
@@ -162,7 +162,7 @@ class ParallelReduction {
 
     std::vector<Lane> lanes{};
     std::vector<std::pmr::vector<Unit>> kept{};
-    std::vector<std::uint32_t> again{};  // columns that lost their pivots
+    std::vector<std::uint32_t> again{};  // the columns that lost their pivots
 
     const Column* keep(const Term& pivot, std::uint32_t number, std::span<const Term> below,
                        std::pmr::memory_resource* memory) {

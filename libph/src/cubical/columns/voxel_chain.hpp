@@ -10,7 +10,7 @@
 
 namespace ph::cubical {
 
-/// A chain of cells under construction; a cell may occur several times until `combine`.
+/// A chain of cells under construction. A cell may occur several times until `combine` is called.
 template <Field K>
 using VoxelChain = std::vector<Entry<StarCell, K>>;
 

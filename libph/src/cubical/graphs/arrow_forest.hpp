@@ -33,8 +33,8 @@ class ArrowForest {
   /// Links a root, or a node that is not known yet, to another node.
   void link(std::uint32_t node, std::uint32_t to) { next_[node] = to; }
 
-  /// The root of a node's tree. Several threads may call it at the same time if none changes roots
-  /// or links: each call only shortens paths.
+  /// The root of a node's tree. Several threads may call this function at the same time if no
+  /// thread changes roots or links, because each call only shortens paths.
   std::uint32_t find(std::uint32_t node) {
     std::uint32_t steps = 0;
     for (std::uint32_t next = after(node); (next & kIsRoot) == 0; next = after(node)) {

@@ -13,15 +13,15 @@
 namespace ph::cubical {
 
 /// If there are many critical cells, links the nodes along their arrows, except for some nodes at
-/// the border. Most arrows will then be needed, and looking up all of them in order is faster than
-/// looking each up when it is needed.
+/// the border. Most arrows will then be needed, and looking them all up in order is faster than
+/// looking up each arrow when it is needed.
 template <class Graph>
 void follow_inner_arrows(const StarGrid& grid, const Graph& graph, ArrowForest<Graph>& forest,
                          const RunContext& context) {
   // Does nothing if at most one voxel in this many has a critical cell.
   constexpr std::uint32_t many = 256;
   if (grid.critical().size() <= grid.size() / many) return;
-  // Where a piece begins, the rows before it that share cells with it are processed again.
+  // At the start of a piece, the preceding rows that share cells with it are processed again.
   const std::uint32_t layer = grid.has_axis(0) ? grid.extent(1) : 1;
   const std::uint32_t piece = std::max(16 * layer, (1U << 18) / grid.extent(2));
   for_each_piece("arrows", grid.row_count(), piece, context,
@@ -42,9 +42,9 @@ void for_each_root(const StarGrid& grid, const Graph& graph, Ticker& ticker, Use
   }
 }
 
-/// The basins of a graph: the trees that its arrows form. Basins are numbered by their roots: first
-/// come nodes that were always there, which have no cell, then critical cells in the order of the
-/// grid.
+/// The basins of a graph, which are the trees that its arrows form. Basins are numbered by their
+/// roots. The first numbers belong to nodes that were always there, which have no cell. The
+/// critical cells follow, in the order of the grid.
 template <class Graph>
 class Basins {
  public:
@@ -85,8 +85,8 @@ class Basins {
         const std::uint32_t own = forest_.find(node);
         if (!root) root = own;
         if (own == *root) return;
-        // The root with the lower number stays a root; the two parts of the outside have the
-        // lowest.
+        // The root with the lower number stays a root. The two parts of the outside have the lowest
+        // numbers.
         const bool is_first = forest_.number_of_root(own) < forest_.number_of_root(*root);
         forest_.link(is_first ? *root : own, is_first ? own : *root);
         if (is_first) root = own;

@@ -10,8 +10,9 @@
 namespace ph::cubical {
 
 /// Disjoint sets of basins, joined by the elder rule. Basins that were always there are older than
-/// all others; among the others, the value decides, then the number. DisjointSets is not used,
-/// because parents and values are read at random places in memory, and here share a cache line.
+/// all others. The other basins are compared by value, then by number. DisjointSets is not used,
+/// because parents and values are read at random places in memory, and here a parent and its value
+/// share a cache line.
 /// @tparam backwards true if basins with higher values and numbers are older.
 template <bool backwards>
 class ElderForest {
@@ -31,7 +32,7 @@ class ElderForest {
   }
   bool is_root(std::uint32_t basin) const { return parent(basin) == basin; }
   double value(std::uint32_t basin) const { return nodes_[basin].value; }
-  /// Links the younger of two roots to the other. @return the younger one.
+  /// Links the younger of two roots to the older. @return the younger root.
   std::uint32_t join(std::uint32_t a, std::uint32_t b) {
     if (is_elder(b, a)) std::swap(a, b);
     nodes_[b].parent = a;

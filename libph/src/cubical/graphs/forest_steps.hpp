@@ -9,8 +9,8 @@
 
 namespace ph::cubical {
 
-// Functions that express the graph of H0 in terms of vertices and edges of the input. In the
-// V-construction these are voxels and the edges between them. In the T-construction they are top
+// These functions express the graph of H0 in terms of vertices and edges of the input. In the
+// V-construction, they are voxels and the edges between voxels. In the T-construction, they are top
 // cells and facets of the stars' grid (GridFrame), where all axes run backwards.
 
 /// A step along an arrow.
@@ -50,8 +50,8 @@ inline std::optional<ForestStep> step_from(const StarGrid&, const TopGraph& grap
                     side < 0};
 }
 
-/// The start and the end of an edge, where edges point in the direction in which their axis runs in
-/// the input.
+/// The start and the end of an edge. An edge points in the direction in which its axis runs in the
+/// input.
 inline std::array<std::uint32_t, 2> oriented_ends(const VoxelGraph& graph, const StarCell& edge) {
   const int number = number_of(edge.direction);
   const auto [near, far] = graph.ends(edge.voxel, static_cast<std::uint32_t>(number));

@@ -55,7 +55,7 @@ class ComponentPairing {
     auto& order = bridges_.order;
     const std::size_t size = order.size();
     const auto place = [size](std::size_t i) { return Graph::kBackwards ? size - 1 - i : i; };
-    // The data are at random places in memory. They are prefetched well before use, in three steps.
+    // The data are at random places in memory. They are prefetched in three steps, well before use.
     constexpr std::size_t stride = 8, ring_size = 4 * stride;
     std::array<Ends, ring_size> ring{};
     const auto is_in = [size](std::size_t i, std::size_t late) {

@@ -23,8 +23,8 @@ class TopGraph : public TopNodes<StarGrid, 3> {
     return has_cubes() ? kSquares[n] : kEdges[n];
   }
 
-  /// The top cell that is reached by leaving a top cell through the facet that it is paired with.
-  /// Precondition: the cell enters and is not critical.
+  /// The top cell on the other side of the facet with which a top cell is paired. Precondition: the
+  /// given cell enters and is not critical.
   std::uint32_t arrow(std::uint32_t node) const;
   /// Calls `use(node, end of its arrow)` for the top cells before each row of voxels in a range of
   /// rows, except for some cells at the border.
@@ -40,7 +40,7 @@ class TopGraph : public TopNodes<StarGrid, 3> {
   std::array<std::uint32_t, 2> ends(std::uint32_t v, std::uint32_t number) const;
   /// A top cell as a cell of a star; the direction is zero if the cell is in no star.
   StarCell cell(std::uint32_t node) const;
-  /// The axis along which the arrow leaves a top cell; nothing if it is critical.
+  /// The axis along which the arrow leaves a top cell, or nothing if the cell is critical.
   std::optional<int> exit_of(const StarCell& top) const {
     const int number = number_of(top.direction);
     const unsigned critical =
@@ -73,10 +73,10 @@ class TopGraph : public TopNodes<StarGrid, 3> {
   }
 };
 
-// Each voxel has a word that tells which top cells around it are in its star, and where the arrows
-// of these cells lead: bit 3u + a is set if the voxel is corner u of a cell in its star whose arrow
-// leaves along axis a. (Along each axis a, corner u of a cell has the coordinate of the first
-// corner plus bit a of u.) A cell is in the star of at most one of its corners. Combining the
+// Each voxel has a word that describes which top cells around it are in its star, and where the
+// arrows of these cells lead. Bit 3u + a is set if the voxel is corner u of a cell in its star
+// whose arrow leaves along axis a. (Along each axis a, corner u of a cell has the coordinate of the
+// first corner plus bit a of u.) A cell is in the star of at most one of its corners. Combining the
 // matching bits of all corners therefore gives at most one bit, without unpredictable branches.
 template <class Use>
 void TopGraph::for_each_inner_arrow(std::uint32_t first_row, std::uint32_t end_row,
@@ -100,7 +100,7 @@ void TopGraph::for_each_inner_arrow(std::uint32_t first_row, std::uint32_t end_r
     return arrow_word(StarTables::cubes(star) & ~pairs.critical_cubes(),
                       [&](int c) { return pairs.exit(c); });
   };
-  // The words of a row, and of the rows before it that share cells with it.
+  // The words of a row and of the preceding rows that share cells with it.
   const std::uint32_t width = grid_.extent(2), height = grid_.extent(1);
   const std::uint32_t layers = has_cubes() ? 2 : 1, kept = (layers - 1) * height + 2;
   std::vector<std::uint32_t> words(std::size_t{kept} * width);
@@ -111,7 +111,7 @@ void TopGraph::for_each_inner_arrow(std::uint32_t first_row, std::uint32_t end_r
     std::uint32_t* const own = words_of(number);
     for (std::uint32_t x = 0; x < width; ++x) own[x] = word_of(row.first + x);
     if (number < first_row) continue;
-    const std::uint32_t z = row.z - (layers - 1), y = row.y - 1;  // coordinates of the cells
+    const std::uint32_t z = row.z - (layers - 1), y = row.y - 1;  // the coordinates of the cells
     if (!is_inner(1, y) || (has_cubes() && !is_inner(0, z))) continue;
     std::array<const std::uint32_t*, 4> voxels{};  // indexed by bits 0 and 1 of u
     for (std::uint32_t zy = 0; zy < 4; ++zy)

@@ -12,7 +12,7 @@ namespace ph::cubical {
 
 /// The nodes of a graph of top cells. They are the cells of the highest dimension, numbered by
 /// their first corner, and the outside, which has two parts if only one axis has ends. The outside
-/// and cells that never enter were always there.
+/// and the cells that never enter were always there.
 /// @tparam Grid a SlabFrame that knows which voxels enter. @tparam most the size of arrays by axis:
 /// three, or the maximum number of axes.
 template <class Grid, std::size_t most>
@@ -44,8 +44,8 @@ class TopNodes {
   /// top cells around the voxel.
   template <class Use>
   void for_each_outer_node(std::uint32_t v, Use&& use) const;
-  /// The nodes that a slab shares with the slab before it or after it, as in VoxelNodes: the top
-  /// cells between the ghost layer and the layer beside it.
+  /// The nodes that a slab shares with the preceding or the following slab, as in VoxelNodes. They
+  /// are the top cells between the ghost layer and the layer beside it.
   std::array<std::uint32_t, 2> seam(bool after) const {
     const int axis = grid_.layer_axis();
     const auto a = static_cast<std::size_t>(axis);
@@ -60,7 +60,8 @@ class TopNodes {
   std::size_t axes() const {
     return most == 3 ? most : static_cast<std::size_t>(grid_.axis_count());
   }
-  /// Calls `use(voxel, direction from it)` for the corners of a top cell, until it returns true.
+  /// Calls `use(voxel, direction from the voxel)` for the corners of a top cell until `use` returns
+  /// true.
   template <class Use>
   void for_each_corner(std::uint32_t node, Use&& use) const;
 
@@ -68,8 +69,7 @@ class TopNodes {
   std::array<std::uint32_t, most> extent_{}, stride_{}, border_{};
 
  private:
-  /// True if there is a cell with this number. There is none after the last voxels of an axis with
-  /// ends.
+  /// True if a cell has this number. No cell comes after the last voxels of an axis with ends.
   bool is_cell(std::uint32_t node) const;
   std::uint32_t outside_beyond(const Way& d) const {
     if (grid_.open_axes() == 1)
@@ -131,7 +131,7 @@ void TopNodes<Grid, most>::for_each_corner(std::uint32_t node, Use&& use) const 
         is_there = is_there && x >= 1 && x <= n;
         --x;
       } else if (x == n) {
-        x = 0;  // because the axis is periodic
+        x = 0;  // the axis is periodic
       }
       v = v * n + x;
     }

@@ -76,8 +76,8 @@ void pair_facets_with_top_cells(const StarGrid& grid, CriticalCells& facets,
 
 void pair_in_both_graphs(const StarGrid& grid, CriticalCells& edges, CriticalCells& squares,
                          const RunContext& context, PairSink& sink, PairSink& top_sink) {
-  // Finds the basins of the two graphs one after the other, because each search uses all threads,
-  // and four bytes per voxel for a while.
+  // The basins of the two graphs are found one after the other, because each search uses all
+  // threads, and temporarily uses four bytes per voxel.
   VertexPairing vertices(grid, edges, sink.wants_cells(), context);
   TopCellPairing top_cells(grid, squares, sink.wants_cells(), context);
   sink.expect(vertices.most_pairs() + top_cells.most_pairs());

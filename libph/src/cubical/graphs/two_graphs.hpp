@@ -39,7 +39,7 @@ inline bool wants_top_cells(const GridShape& grid, const BarRequest& wanted) {
 /// The number of tasks, out of two, that a thread takes at once: two if a second thread would cost
 /// more time than it saves, otherwise one.
 inline std::size_t tasks_at_a_time(const GridFrame& frame) {
-  constexpr std::uint32_t few = 1 << 16;  // voxels
+  constexpr std::uint32_t few = 1 << 16;  // the number of voxels
   return frame.size() < few ? 2 : 1;
 }
 
@@ -48,10 +48,10 @@ inline std::size_t tasks_at_a_time(const GridFrame& frame) {
 void pair_vertices_with_edges(const StarGrid& grid, CriticalCells& edges, const RunContext& context,
                               PairSink& sink);
 
-/// Pairs facets with the top cells that kill them, by means of the components of the dual graph.
-/// There, facets join top cells, youngest first; the outside and cells that never enter were always
-/// there. Removes the paired facets from the order of `facets`, which initially lists all critical
-/// facets that kill nothing. Precondition: grid.top_dim() >= 2.
+/// Pairs facets with the top cells that kill them, by means of the components of the dual graph. In
+/// this graph, facets join top cells, youngest first. The outside and the cells that never enter
+/// were always there. Removes the paired facets from the order of `facets`, which initially lists
+/// all critical facets that kill nothing. Precondition: grid.top_dim() >= 2.
 void pair_facets_with_top_cells(const StarGrid& grid, CriticalCells& facets,
                                 const RunContext& context, PairSink& sink);
 

@@ -8,8 +8,8 @@
 
 namespace ph::cubical {
 
-/// The graph of voxels in the stars of up to three axes: roots are voxels without an older
-/// neighbour, and bridges are critical edges.
+/// The graph of voxels in the stars of up to three axes. Its roots are voxels without an older
+/// neighbour, and its bridges are critical edges.
 class VoxelGraph : public VoxelNodes<StarGrid> {
  public:
   using VoxelNodes::VoxelNodes;
@@ -20,11 +20,11 @@ class VoxelGraph : public VoxelNodes<StarGrid> {
   std::uint32_t arrow(std::uint32_t v) const {
     return across(v, grid_.tables(v).arrow(grid_.star(v)));
   }
-  /// Calls `use(node, end of its arrow)` for the voxels of a range of rows, except at the border; a
+  /// Calls `use(node, end of its arrow)` for the voxels of a range of rows, except at the border. A
   /// root may point to itself.
   template <class Use>
   void for_each_inner_arrow(std::uint32_t first_row, std::uint32_t end_row, Use&& use) const {
-    // For each set of edges of a star: the offset from the voxel to the end of its arrow if the
+    // For each set of edges of a star, the offset from the voxel to the end of its arrow if the
     // star has these edges.
     std::array<std::uint32_t, 1 << kEdgeCount> offset{};
     for (std::uint32_t edges = 1; edges < offset.size(); ++edges) {

@@ -7,7 +7,8 @@
 namespace ph::cubical {
 
 /// The nodes of a graph of voxels for any number of axes. They are the voxels and the outside,
-/// which has two parts if only one axis has ends. The outside was always there, and so were voxels
+/// which has two parts if only one axis has ends. The outside was always there. Voxels that never
+/// enter in the T-construction, where they are not cells, were also always there.
 /// that never enter in the T-construction, where they are not cells.
 /// @tparam Grid a SlabFrame that knows which voxels enter.
 template <class Grid>
@@ -33,8 +34,8 @@ class VoxelNodes {
         if (u >= grid_.size() || !grid_.enters(u)) use(u);
       }
   }
-  /// The nodes that a slab shares with the slab before it or after it: the nodes of the ghost layer
-  /// and of the layer beside it. @return the first node, and their number.
+  /// The nodes that a slab shares with the preceding or the following slab. They are the nodes of
+  /// the ghost layer and of the layer beside it. @return the first node, and the number of nodes.
   std::array<std::uint32_t, 2> seam(bool after) const {
     const std::uint32_t count = 2 * grid_.layer_size();
     return {after ? grid_.size() - count : 0, count};

@@ -51,9 +51,9 @@ class CellMark {
 };
 
 /// The cells of an image with any number of axes. A cell is given by its position in the doubled
-/// grid, in C order. Only a mark is stored per cell; a cell is as old as the voxel that decides its
-/// value. Axes with one voxel are left out where possible; `CellSink` adds the bars that are
-/// missing because a periodic axis is left out.
+/// grid, in C order. Only a mark is stored for each cell, because a cell is as old as the voxel
+/// that decides its value. Axes with one voxel are left out where possible. `CellSink` adds the
+/// bars that are missing because a periodic axis is left out.
 class CellGrid {
  public:
   static constexpr int kMostAxes = 8;
@@ -61,14 +61,15 @@ class CellGrid {
   /// Doubled coordinates, or the coordinates of a voxel.
   using Coordinates = std::array<std::uint32_t, kMostAxes>;
   /// A cell as a number that orders the cells of one dimension as in the filtration. The high bits
-  /// are the rank of the voxel that decides the value of the cell, the low bits are its position.
+  /// are the rank of the voxel that decides the value of the cell. The low bits are the position of
+  /// the cell.
   using Name = std::uint64_t;
   static std::uint32_t cell(Name name) { return static_cast<std::uint32_t>(name); }
 
   struct Axis {
-    std::uint32_t extent = 1;  ///< in voxels
-    std::uint32_t length = 1;  ///< in doubled coordinates
-    std::uint32_t stride = 1;  ///< stride in the doubled grid
+    std::uint32_t extent = 1;  ///< the number of voxels
+    std::uint32_t length = 1;  ///< the number of doubled coordinates
+    std::uint32_t stride = 1;  ///< the stride in the doubled grid
     bool periodic = false;
     Divisor by_length;
   };
@@ -104,9 +105,9 @@ class CellGrid {
     }
     return x;
   }
-  /// The cell one step from a cell: upwards if `direction` is 2 * axis + 1, downwards if it is 2 *
-  /// axis. Returns kNone if the step leads outside. @param x the doubled coordinate of the given
-  /// cell on that axis.
+  /// The cell one step away from a cell. The step leads upwards if `direction` is 2 * axis + 1, and
+  /// downwards if it is 2 * axis. Returns kNone if the step leads outside. @param x the doubled
+  /// coordinate of the given cell on that axis.
   std::uint32_t beside(std::uint32_t cell, std::uint32_t x, int direction) const {
     const Axis& a = axes_[static_cast<std::size_t>(direction) / 2];
     if (direction % 2 != 0) {

@@ -9,12 +9,12 @@ constexpr double kMostNodes = 2'147'000'000;  // ids of nodes and labels have 31
 }  // namespace
 
 bool GridFrame::can_hold(const CubicalImage& grid) {
-  // The number of nodes of the larger of the two graphs, without the outside.
+  // The number of nodes of the larger of the two graphs, not counting the outside.
   double nodes = 1;
   for (std::size_t k = 0; k < grid.extents.size(); ++k)
     if (GridShape::keeps_axis(grid, k))
       nodes *= static_cast<double>(grid.extents[k]) + (grid.voxels_are_vertices ? 0 : 1);
-  // Labels are needed for the outside, for cells that never enter and for roots; together they are
+  // Labels are needed for the outside, for cells that never enter and for roots. Together they are
   // fewer than the nodes.
   return GridShape::count_axes(grid) <= GridShape::kMostAxes && grid.size() > 0 &&
          nodes < kMostNodes;

@@ -36,11 +36,11 @@ class Divisor {
 
 /// The positions of the voxels of an image, with axes counted as in GridShape.
 ///
-/// Both constructions are handled as one. The V-construction is used as it is. The T-construction
-/// of f is treated as the V-construction of -f: values are negated, all axes run backwards, a
-/// border of voxels that were always there surrounds the image, and dimension k becomes top - k.
-/// The grid and the filtration that result are called the *stars' grid* and the *order of the
-/// stars*. Voxels that were always there are not cells (homology is relative to them).
+/// Both constructions are handled in the same way. The V-construction is used as it is. The
+/// T-construction of f is treated as the V-construction of -f: values are negated, all axes run
+/// backwards, a border of voxels that were always there surrounds the image, and dimension k
+/// becomes top - k. The resulting grid and filtration are called the *stars' grid* and the *order
+/// of the stars*. Voxels that were always there are not cells. Homology is relative to them.
 class GridFrame {
  public:
   /// True if the image has at least one voxel and at most about 2^31.
@@ -66,7 +66,7 @@ class GridFrame {
   int open_axes() const {
     return static_cast<int>(std::ranges::count(axes_, true, &Axis::has_ends));
   }
-  /// The slowest axis. A layer is the set of voxels at one place of this axis.
+  /// The slowest axis. A layer is the set of voxels at one position along this axis.
   int layer_axis() const { return shape_.layer_axis(); }
   std::uint32_t layer_size() const { return stride(layer_axis()); }
 
@@ -74,7 +74,7 @@ class GridFrame {
   double value(std::uint32_t v) const {
     return is_t_construction_ ? -grid_.value(size_ - 1 - v) : grid_.value(v);
   }
-  // Has the meaning of PartStars::sees: the frame of an entire grid sees all voxels.
+  // This has the meaning of PartStars::sees. The frame of an entire grid sees all voxels.
   static constexpr bool sees(std::uint64_t) { return true; }
   static constexpr bool sees_square(std::uint32_t, int) { return true; }
   static std::uint32_t here(std::uint64_t voxel) { return static_cast<std::uint32_t>(voxel); }
@@ -94,7 +94,7 @@ class GridFrame {
   /// A row of voxels along the last axis.
   struct VoxelRow {
     std::uint32_t z, y, first;
-    bool is_at_border;  ///< at an end of one of the other axes
+    bool is_at_border;  ///< true at an end of one of the other axes
   };
   std::uint32_t row_count() const { return size_ / extent(2); }
   VoxelRow row(std::uint32_t number) const {
@@ -128,7 +128,7 @@ class GridFrame {
     Divisor by_extent, by_stride;
     /// True if the entire grid has two ends along this axis.
     bool has_ends = false;
-    /// The coordinate of the first voxels of a periodic axis: the cells before these voxels come
+    /// The coordinate of the first voxels of a periodic axis. The cells before these voxels come
     /// last in the grid.
     std::uint32_t wrapped = UINT32_MAX;
   };
@@ -145,7 +145,7 @@ class GridFrame {
     return result;
   }
   /// Makes this frame a slab of a grid whose slowest axis is periodic. @param wrapped the position
-  /// in this slab of the first layer of that grid, if the slab has that layer.
+  /// in this slab of the first layer of the grid, if the slab has that layer.
   void be_part_of_ring(std::uint32_t wrapped);
 
   CubicalImage grid_;

@@ -12,7 +12,7 @@
 namespace ph::cubical {
 
 /// The axes of an image of any size in the stars' grid (GridFrame). Axes with one voxel are left
-/// out; `PairSink` adds the bars that are missing because a periodic axis is left out. If at most
+/// out. `PairSink` adds the bars that are missing because a periodic axis is left out. If at most
 /// three axes are left, they count as the last of three axes, which fixes the numbers of directions
 /// in stars.
 class GridShape {
@@ -45,7 +45,7 @@ class GridShape {
     return static_cast<int>(
         std::ranges::count_if(axes_, [](const Axis& a) { return a.exists && !a.periodic; }));
   }
-  /// The slowest axis. A layer is the set of voxels at one place of this axis.
+  /// The slowest axis. A layer is the set of voxels at one position along this axis.
   int layer_axis() const { return axis_count() - top_dim_; }
   /// A bit for each periodic axis along which this is the first voxel; see StarTables.
   unsigned wrapped(std::uint64_t voxel) const {

@@ -11,16 +11,16 @@
 
 namespace ph::cubical {
 
-/// One CubePairMemo per value of `wrapped` (StarTables) that occurs; empty unless there are three
-/// axes.
+/// One CubePairMemo for each value of `wrapped` (StarTables) that occurs. The vector is empty
+/// unless there are three axes.
 using CubePairMemos = std::shared_ptr<std::pmr::vector<CubePairMemo>>;
 /// @param is_in_ring true if the grid is a part of a larger grid whose slowest axis is periodic.
 CubePairMemos cube_pair_memos(const GridShape& grid, bool is_in_ring, const RunContext& context);
 
 /// The position of a slab in a grid. Where the grid continues, the slab has one more layer, a
-/// *ghost*, which is needed to compute the layer beside it and has no cells of its own. In a ring,
-/// whose slowest axis is periodic, the ghost before the first slab is the last layer, and the ghost
-/// after the last slab is the first layer.
+/// *ghost*. The ghost is needed to compute the layer beside it, and has no cells of its own. In a
+/// ring, whose slowest axis is periodic, the ghost before the first slab is the last layer, and the
+/// ghost after the last slab is the first layer.
 struct SlabPlace {
   bool is_first = true, is_last = true, is_in_ring = false;
   CubePairMemos cube_pairs = nullptr;  ///< memos that slabs share; null if the slab has its own

@@ -42,10 +42,11 @@ StarTables::StarTables(unsigned wrapped)
   }
 }
 
-// Runs Kruskal's algorithm with the elder rule on the link. Its nodes are the edges of the star,
-// and squares join them in order; of two components, the component whose oldest edge is younger
-// dies. All edges of a component except the oldest are therefore killed. Each killed edge is then
-// matched with the square that leads from it towards the oldest edge in the resulting tree.
+// Runs Kruskal's algorithm with the elder rule on the link. The nodes are the edges of the star,
+// and squares join them in order. When a square joins two components, the component whose oldest
+// edge is younger dies. All edges of a component except the oldest are therefore killed. Each
+// killed edge is then matched with the square that leads from it towards the oldest edge in the
+// resulting tree.
 void StarTables::pair_edges(unsigned squares) {
   std::array<int, kEdgeCount> parent{};
   std::iota(parent.begin(), parent.end(), 0);
@@ -80,9 +81,9 @@ void StarTables::pair_edges(unsigned squares) {
   of_squares_[squares].joined = static_cast<std::uint8_t>(63U & ~roots);
 }
 
-// Runs the same algorithm on the dual, in reverse order. The nodes are the eight triangles of the
-// octahedron, which are cubes of the grid. Triangles outside the star were always there. Each
-// square joins the two triangles beside it, and the youngest squares come first.
+// Runs the same algorithm as `pair_edges` on the dual graph, in reverse order. The nodes are the
+// eight triangles of the octahedron, which are cubes of the grid. Triangles outside the star were
+// always there. Each square joins the two triangles beside it, and the youngest squares come first.
 CubePairs StarTables::pair_cubes(std::uint32_t star) const {
   CubePairs pairs;
   const unsigned cubes = this->cubes(star), all = squares(star);
@@ -104,7 +105,8 @@ CubePairs StarTables::pair_cubes(std::uint32_t star) const {
     return number_of(turned(kSquares[s], normal_of_square(s), sign));
   };
   const auto is_there = [&](int c) { return (cubes >> c & 1U) != 0; };
-  // The root of a tree is a node that was always there if it has one, otherwise its youngest node.
+  // The root of a tree is a node that was always there, if the tree has one. Otherwise it is the
+  // youngest node of the tree.
   const auto outlives = [&](int a, int b) {
     if (is_there(a) != is_there(b)) return !is_there(a);
     return cube_order_.rank(a) > cube_order_.rank(b);

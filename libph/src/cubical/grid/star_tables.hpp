@@ -11,19 +11,20 @@
 
 namespace ph::cubical {
 
-// The lower star of a voxel v in a grid of at most three axes: v and the edges, squares and cubes
-// whose youngest voxel is v. Each cell is named by its direction: twice the offset from v to its
-// centre, in {-1, 0, 1}^3. A star is one word: bits 0-5 are the edges, 6-17 the squares, 18-25 the
-// cubes, each in lexicographic order of the directions. The star is a cone over the lower link of
-// v. The lower link is a subcomplex of the octahedron: its vertices are the edges of the star, its
-// edges are the squares, and its triangles are the cubes.
+// The lower star of a voxel v in a grid of at most three axes consists of v and the edges, squares
+// and cubes whose youngest voxel is v. Each cell is named by its direction, which is twice the
+// offset from v to the centre of the cell, in {-1, 0, 1}^3. A star is stored as one word: bits 0-5
+// are the edges, bits 6-17 are the squares, and bits 18-25 are the cubes. Each group is in
+// lexicographic order of the directions. The star is a cone over the lower link of v. The lower
+// link is a subcomplex of the octahedron: its vertices are the edges of the star, its edges are the
+// squares, and its triangles are the cubes.
 
 /// A direction, by axis; the last axis is the fastest.
 using Direction = std::array<int, 3>;
 
 constexpr int kEdgeCount = 6, kSquareCount = 12, kCubeCount = 8;
 constexpr int kSquareShift = kEdgeCount, kCubeShift = kEdgeCount + kSquareCount;
-/// Bits 26-30 mark edges that are known to be in a pair; the oldest edge needs no mark.
+/// Bits 26-30 mark edges that are known to be in a pair. The oldest edge needs no mark.
 constexpr int kTakenShift = kCubeShift + kCubeCount - 1;   // the bit before the first mark
 constexpr std::uint32_t kAbsent = std::uint32_t{1} << 31;  ///< the voxel never enters
 
@@ -45,8 +46,8 @@ inline constexpr auto kSquares = directions_of<kSquareCount>(2);
 inline constexpr auto kCubes = directions_of<kCubeCount>(3);
 
 constexpr int place_of(const Direction& d) { return (d[0] + 1) * 9 + (d[1] + 1) * 3 + d[2] + 1; }
-/// For each direction, by place_of(direction): the number of the direction among all directions of
-/// the same dimension.
+/// For each direction, indexed by place_of(direction), the number of the direction among all
+/// directions of the same dimension.
 inline constexpr std::array<int, 27> kNumbers = [] {
   std::array<int, 27> numbers{};
   for (int i = 0; i < kEdgeCount; ++i) numbers[place_of(kEdges[i])] = i;
@@ -154,10 +155,10 @@ class CubePairs {
   std::uint64_t word_ = 0;
 };
 
-/// Tables of the pairs inside stars. These are the persistence pairs of a star modulo its lower
-/// link, in the order of the filtration. They decide which cells are killed, which cells kill, and
-/// which cells do neither (*critical cells*). Partners are then exchanged, which makes the matching
-/// a forest and leaves the critical cells unchanged (see
+/// Tables of the pairs inside stars. These pairs are the persistence pairs of a star modulo its
+/// lower link, in the order of the filtration. The pairs decide which cells are killed, which cells
+/// kill, and which cells neither kill nor are killed (*critical cells*). Partners are then
+/// exchanged, which makes the matching a forest and leaves the critical cells unchanged (see
 /// docs/explanation/engines/discrete-gradient.md).
 class StarTables {
  public:
@@ -187,7 +188,7 @@ class StarTables {
   static unsigned squares(std::uint32_t star) { return star >> kSquareShift & 4095U; }
   static unsigned cubes(std::uint32_t star) { return star >> kCubeShift & 255U; }
 
-  /// The edge with which the voxel is paired: the oldest edge. Precondition: the star has
+  /// The edge with which the voxel is paired, which is the oldest edge. Precondition: the star has
   /// an edge.
   int arrow(std::uint32_t star) const { return arrow_[edges(star)]; }
   /// The edges that are not paired inside the star.
@@ -210,14 +211,14 @@ class StarTables {
   int square_of(std::uint32_t star, int edge) const { return up_[squares(star)][edge]; }
   /// The squares of a star that are paired with edges.
   unsigned edge_squares(std::uint32_t star) const { return tree_[squares(star)]; }
-  /// The edge that a square is paired with. Precondition: it is in `edge_squares`.
+  /// The edge that a square is paired with. Precondition: the square is in `edge_squares`.
   int edge_of(std::uint32_t star, int square) const {
     const auto [a, b] = kEdgesOfSquare[square];
     return up_[squares(star)][a] == square ? a : b;
   }
   CubePairs pair_cubes(std::uint32_t star) const;
-  /// The index of a star in tables of `pair_cubes`, which depends on its squares and cubes. It is
-  /// less than `cube_place_count`.
+  /// The index of a star in tables of `pair_cubes`. The index depends on the squares and cubes of
+  /// the star, and is less than `cube_place_count`.
   std::uint32_t cube_place(std::uint32_t star) const {
     const unsigned c = cubes(star);
     // Adds the index of the set of cubes among the subsets of the cubes that the squares allow.
@@ -251,30 +252,30 @@ class StarTables {
   GridOrder<kSquareCount> square_order_;
   GridOrder<kCubeCount> cube_order_;
   std::array<std::uint8_t, 64> arrow_{};
-  // Data that are needed for each voxel, side by side in memory.
+  // These data are needed for each voxel, and are therefore side by side in memory.
   struct OfEdges {
-    std::uint16_t squares_on;  // squares that have both of these edges
+    std::uint16_t squares_on;  // the squares that have both of these edges
     std::uint8_t lowest;       // the oldest edge, as a bit
   };
   struct OfSquares {
-    std::uint8_t cubes_on;  // cubes that have all three of these edges
-    std::uint8_t joined;    // edges paired with one of these squares
-    std::uint8_t loops;     // number of squares not paired with an edge
+    std::uint8_t cubes_on;  // the cubes that have all three of these edges
+    std::uint8_t joined;    // the edges paired with one of these squares
+    std::uint8_t loops;     // the number of squares not paired with an edge
   };
   std::array<OfEdges, 64> of_edges_{};
   std::array<OfSquares, 4096> of_squares_{};
-  // For each set of squares: the squares of the set that are paired with an edge.
+  // For each set of squares, the squares of the set that are paired with an edge.
   std::array<std::uint16_t, 4096> tree_{};
   std::array<std::array<std::int8_t, kEdgeCount>, 4096> up_{};
   std::array<std::uint32_t, 4096> places_begin_{};  // indexed by set of squares
   std::uint32_t place_count_ = 0;
 };
 
-/// The tables for a value of `wrapped`, made once, on first use.
+/// The tables for a value of `wrapped`. They are made once, on first use.
 const StarTables& star_tables(unsigned wrapped);
 
 /// Caches the results of `StarTables::pair_cubes`, which is slow. Results are computed on first
-/// use, because most kinds of stars never occur. Several threads may use it.
+/// use, because most kinds of stars never occur. Several threads may use the cache.
 class CubePairMemo {
  public:
   /// @param is_used false if the memo will never be used; it then takes no memory.
@@ -290,7 +291,8 @@ class CubePairMemo {
 
  private:
   const StarTables* tables_;
-  mutable std::pmr::vector<std::atomic<std::uint64_t>> words_;  // 0 until the result is found
+  // A word is 0 until the result is found.
+  mutable std::pmr::vector<std::atomic<std::uint64_t>> words_;
 };
 
 }  // namespace ph::cubical

@@ -21,7 +21,7 @@ StarLinks find_links(const LayerGrid& grid, const typename Star::Nodes& nodes,
   constexpr std::size_t piece = 1 << 12;
   StarLinks links(nodes.size(), &context.memory);
   std::mutex mutex;
-  // The links found in each piece of the grid, by the first voxel of the piece.
+  // The links found in each piece of the grid, indexed by the first voxel of the piece.
   std::map<std::size_t, FoundLinks> pieces;
   for_each_piece("stars", grid.size(), piece, context, [&](std::size_t begin, std::size_t end) {
     FoundLinks found(links.arrows, &context.memory);

@@ -16,8 +16,8 @@ using LayerVoxels = VoxelNodes<LayerGrid>;
 using LayerTops = TopNodes<LayerGrid, GridShape::kMostAxes>;
 
 // The two graphs (VoxelGraph, TopGraph) for any number of axes. The cells of the dimensions between
-// them are not paired. Bridges whose two ends are already connected around one voxel are left out;
-// all other bridges are used.
+// the two graphs are not paired. Bridges whose two ends are already connected around one voxel are
+// left out. All other bridges are used.
 
 /// Voxels joined by edges. Memory: 4 bytes per voxel, plus roots and bridges.
 class LayerVoxelGraph : public LayerVoxels {

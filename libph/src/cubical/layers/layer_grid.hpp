@@ -10,8 +10,9 @@
 
 namespace ph::cubical {
 
-/// A grid of more than three axes, or some of its layers, with only the data that the two graphs
-/// need: the values of voxels. It stores no other cells; their number is therefore not limited.
+/// A grid of more than three axes, or some of its layers. It stores only the values of voxels,
+/// which are all that the two graphs need. It stores no other cells, so the number of cells is not
+/// limited.
 class LayerGrid : public SlabFrame {
  public:
   /// Precondition: can_hold(grid), more than three axes. Memory: 8 bytes per voxel.
@@ -23,9 +24,9 @@ class LayerGrid : public SlabFrame {
     return (is_t_construction() ? -values_[v] : values_[v]) <= grid_.limit;
   }
   bool all_enter() const { return all_enter_; }
-  /// True if u is older than v. Preconditions: v enters and is not a ghost. The value of a voxel
-  /// that never enters makes it younger than all others in the V-construction, and older than all
-  /// others in the T-construction.
+  /// True if u is older than v. Preconditions: v enters and is not a ghost. A voxel that never
+  /// enters counts as younger than all others in the V-construction, and as older than all others
+  /// in the T-construction.
   /// @param u a voxel, or kOutside for a voxel of the border, which exists only in the
   /// T-construction.
   bool is_older(std::uint32_t u, std::uint32_t v) const {
@@ -44,8 +45,8 @@ class LayerGrid : public SlabFrame {
       const auto way = static_cast<std::size_t>(2 * axis + (up ? 1 : 0));
       return u == kOutside || (leaves_ >> way & 1U) != 0 ? kOutside : u + by_[way];
     }
-    /// The rank of a step among the three steps along an axis, in the order in which the cells that
-    /// they lead to are stored in the grid.
+    /// The rank of a step among the three steps along an axis. The steps are in the order in which
+    /// the grid stores the cells that they lead to.
     /// @param step 0 (none), 1 (down), 2 (up).
     unsigned order(int axis, unsigned step) const {
       constexpr std::array<unsigned, 3> plain{1, 0, 2}, wrapped{1, 3, 2};  // mutant: many-axes-ring
@@ -53,10 +54,11 @@ class LayerGrid : public SlabFrame {
     }
 
    private:
-    // The offset of a step: at 2 * axis for a step down, at 2 * axis + 1 for a step up.
+    // The offset of each step. The entry 2 * axis is for a step down, and 2 * axis + 1 is for a
+    // step up.
     std::array<std::uint32_t, 2 * std::size_t{GridShape::kMostAxes}> by_{};  // modulo 2^32
-    unsigned leaves_ = 0;   // steps that lead outside, as bits
-    unsigned wrapped_ = 0;  // axes along which the cell below comes last, as bits
+    unsigned leaves_ = 0;   // the steps that lead outside, as bits
+    unsigned wrapped_ = 0;  // the axes along which the cell below comes last, as bits
   };
 
  private:

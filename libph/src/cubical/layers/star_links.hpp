@@ -10,8 +10,8 @@
 namespace ph::cubical {
 
 /// Arrows, roots and bridges of a graph, as found in the stars of some voxels. The arrow of a node
-/// crosses a bridge of its star that is in a pair of length zero, and leads to an older node or to
-/// another node of the star.
+/// crosses a bridge of its star that is in a pair of length zero. The arrow leads to an older node
+/// or to another node of the star.
 struct StarLinks {
   struct Root {
     std::uint32_t voxel, node, number;
@@ -23,7 +23,8 @@ struct StarLinks {
 
   RawVector<std::uint32_t> arrows;  ///< indexed by node; a root points to itself
   std::pmr::vector<Root> roots;     ///< in the order of the grid
-  CriticalCells bridges;            ///< bridges in no pair of length zero that may join components
+  /// Bridges that are in no pair of length zero and may join components.
+  CriticalCells bridges;
 };
 
 /// The arrows, roots and bridges that one thread has found, in the order of the grid.
@@ -31,7 +32,8 @@ struct FoundLinks {
   FoundLinks(RawVector<std::uint32_t>& all_arrows, std::pmr::memory_resource* memory)
       : arrows(all_arrows), roots(memory), bridges(memory) {}
 
-  /// Shared by all threads. Only one thread sets each entry, because each node is in one star.
+  /// The array is shared by all threads. Only one thread sets each entry, because each node is in
+  /// one star.
   RawVector<std::uint32_t>& arrows;
   std::pmr::vector<StarLinks::Root> roots;
   std::pmr::vector<NumberedCell> bridges;

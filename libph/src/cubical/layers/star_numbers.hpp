@@ -19,8 +19,8 @@ inline WideDirection widened(const Direction& direction) {
 }
 
 /// The direction that the number of a cell encodes in a star of more than three axes. As in
-/// StarShapes, the number has one digit in base 3 per axis, the lowest for the first axis: 0 (no
-/// step), 1 (down), 2 (up).
+/// StarShapes, the number has one base-3 digit for each axis. The lowest digit is for the first
+/// axis. The digits mean 0 (no step), 1 (down) and 2 (up).
 inline WideDirection direction_of_code(std::uint32_t code, int axes) {
   WideDirection direction{};
   for (int& step : std::span(direction).first(static_cast<std::size_t>(axes))) {
@@ -30,8 +30,8 @@ inline WideDirection direction_of_code(std::uint32_t code, int axes) {
   return direction;
 }
 
-/// The direction of a cell of some dimension by its number in a star; nothing if that number does
-/// not exist. @param axes the number of axes of the grid.
+/// The direction of a cell of some dimension, given by the number of the cell in a star. Returns
+/// nothing if there is no such number. @param axes the number of axes of the grid.
 inline std::optional<WideDirection> direction_in_star(int axes, int dim, std::uint32_t number) {
   WideDirection direction{};
   if (dim == 0) return number == 0 ? std::optional(direction) : std::nullopt;

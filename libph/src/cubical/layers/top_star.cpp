@@ -97,7 +97,7 @@ void TopStar::join_by_younger_facets() {
   for (int a = 0; a < axes_; ++a)
     for (std::uint32_t low = 0; low < same_.size(); ++low) {
       const std::uint32_t high = low | 1U << a;
-      // Beyond the end of an axis, this facet does not exist: both sides are outside.
+      // Beyond the end of an axis, this facet does not exist, because both sides are outside.
       if (low != high && is_in_[code_of_facet(low, a)] == 0) same_[find(low)] = find(high);
     }
 }

@@ -11,12 +11,13 @@
 
 namespace ph::cubical {
 
-/// The top cells and facets of a voxel's star in the graph of top cells. Each thread has one.
+/// The top cells and facets of a voxel's star in the graph of top cells. Each thread has its own
+/// object.
 ///
-/// All top cells around a voxel, not only those in its star, are joined as in the graph: first by
-/// the facets of younger voxels, then by the facets of the star, youngest first. A facet of the
-/// star that joins two trees in a pair of length zero gives an arrow. A facet whose two sides are
-/// already connected when its turn comes joins no components of the entire grid.
+/// All top cells around a voxel, including those outside its star, are joined as in the graph. They
+/// are joined first by the facets of younger voxels, then by the facets of the star, youngest
+/// first. A facet of the star that joins two trees in a pair of length zero gives an arrow. A facet
+/// whose two sides are already connected at that time joins no components of the entire grid.
 class TopStar {
  public:
   using Nodes = LayerTops;
@@ -58,13 +59,13 @@ class TopStar {
   StarShapes shapes_;
   std::pmr::vector<std::uint16_t> codes_;  // indexed by sides
   // The cells of the star, in an order in which each cell comes after the cells that have one step
-  // less.
+  // fewer.
   std::pmr::vector<Cell> cells_;
-  std::pmr::vector<std::uint8_t> is_in_;  // for each code: 1 if the cell is in the star
+  std::pmr::vector<std::uint8_t> is_in_;  // for each code, 1 if the cell is in the star
   std::pmr::vector<Placed> facets_, tops_;
-  // For each set of sides: the tree of the top cell, and the age of the tree. If all cells of a
-  // tree lie in the star, its root is the youngest cell, which is the elder; any other tree is
-  // older than the star.
+  // For each set of sides, the tree of the top cell and the age of the tree. If all cells of a tree
+  // are in the star, its root is the youngest cell, which is the elder. Any other tree is older
+  // than the star.
   std::pmr::vector<std::uint32_t> same_, age_;
   std::pmr::vector<std::uint8_t> is_new_;
 };

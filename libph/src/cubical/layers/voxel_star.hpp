@@ -11,7 +11,7 @@
 
 namespace ph::cubical {
 
-/// The edges of a voxel's star in the graph of voxels. Each thread has one.
+/// The edges of a voxel's star in the graph of voxels. Each thread has its own object.
 class VoxelStar {
  public:
   using Nodes = LayerVoxels;
@@ -28,7 +28,7 @@ class VoxelStar {
       return;
     }
     // The first edge is paired with the voxel. Each other edge joins components unless its ends are
-    // already connected, for example by way of a square.
+    // already connected, for example through a square.
     found.arrows[v] = edges_[0].leads_to;
     if (count_ == 1) return;
     join_over_squares(v, steps);

@@ -17,11 +17,11 @@
 namespace ph::cubical {
 
 /// An edge of the T-construction (T), which is a square of the stars' grid (GridFrame). The
-/// youngest edge of T is the oldest square.
+/// youngest edge of T is the oldest square of the stars' grid.
 using DualEdge = LoopSquare;
 
-/// The edges of T that may give birth to loops: critical squares that neither of the two graphs
-/// pairs.
+/// The edges of T that may give birth to loops. These are the critical squares that neither of the
+/// two graphs pairs.
 class FreeDualEdges {
  public:
   /// @param squares the critical squares; those listed in `squares.order` are in no pair. `squares`
@@ -31,7 +31,7 @@ class FreeDualEdges {
       : grid_(grid), squares_(squares), is_free_(squares.cells.size(), false, memory) {
     for (const auto& place : squares.order) is_free_[place.cell] = true;
   }
-  /// The position of an edge among the critical squares. Precondition: it is critical.
+  /// The position of an edge among the critical squares. Precondition: the edge is critical.
   std::uint32_t number(const DualEdge& edge) const {
     const std::uint32_t v = grid_.here(edge.voxel());
     const int square = grid_.tables(v).square_order().at(edge.rank());
@@ -47,8 +47,9 @@ class FreeDualEdges {
   std::pmr::vector<bool> is_free_;  // indexed by critical square
 };
 
-/// A chain of edges of T under reduction: the dual of LoopColumn, in reverse order. The squares of
-/// T are the edges of the stars' grid, and the boundary in T is the coboundary there.
+/// A chain of edges of T under reduction. It is the dual of LoopColumn, in reverse order. The
+/// squares of T are the edges of the stars' grid, and the boundary in T is the coboundary in that
+/// grid.
 template <Field K>
 class DualLoopColumn {
  public:
@@ -91,7 +92,7 @@ class DualLoopColumn {
     }
     return std::nullopt;
   }
-  /// The terms of the chain, each edge once, from young to old.
+  /// The terms of the chain, from young to old. Each edge occurs once.
   std::span<const Term> consolidate() { return heap_.consolidate(); }
 
  private:
@@ -109,7 +110,8 @@ class DualLoopColumn {
     int first = along == 0 ? 1 : 0;
     const bool beside_first = kSquares[square][first] != 0;
     const int axis = beside_first ? first : 3 - along - first;
-    // Axes of T run backwards: the lower end in the stars' grid is the upper end in T.
+    // The axes of T run backwards. The lower end in the stars' grid is therefore the upper end in
+    // T.
     return beside_first ? -kSquares[square][axis] : kSquares[square][axis];
   }
   // Adds `scale` times the coboundary of an edge of the star of v. Leaves out the square `skip` of
@@ -143,7 +145,7 @@ class DualLoopColumn {
   const K& field_;
   const RunContext& context_;
   ChainHeap<K, Term, &DualEdge::follows> heap_;
-  std::size_t steps_ = 0;  // steps since the stop token was last polled
+  std::size_t steps_ = 0;  // the number of steps since the stop token was last polled
 };
 
 }  // namespace ph::cubical

@@ -22,7 +22,7 @@ class DualLoopReduction {
   using Term = typename Reduction::Term;
 
   /// @param edges,squares critical cells of the stars' grid; the cells listed in `edges.order` and
-  /// `squares.order` are in no pair of the two graphs.
+  /// `squares.order` are not paired by the two graphs.
   DualLoopReduction(const StarGrid& grid, const CriticalCells& edges, const CriticalCells& squares,
                     const K& field, const RunContext& context)
       : grid_(grid),

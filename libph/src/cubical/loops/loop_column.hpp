@@ -15,10 +15,10 @@
 
 namespace ph::cubical {
 
-/// A chain of edges under reduction. If the pivot is an edge that is paired inside its star, the
-/// pivot is replaced by the rest of the boundary of the square with which it is paired; a chain is
-/// therefore expanded only down to its pivot. Edges that kill a component are left out, because
-/// such an edge is never the pivot of a column. An object must not be shared by threads.
+/// A chain of edges under reduction. If the pivot is an edge that is paired inside its star, it is
+/// replaced by the rest of the boundary of the square with which it is paired. A chain is therefore
+/// expanded only down to its pivot. Edges that kill a component are left out, because such an edge
+/// is never the pivot of a column. An object must not be shared by threads.
 /// @tparam Stars StarGrid, StoredStars, or PartStars.
 template <Field K, class Stars>
 class LoopColumn {
@@ -61,21 +61,22 @@ class LoopColumn {
   std::optional<Term> follow(const Term& pivot, std::size_t most) {
     return heap_.follow(pivot, most, [this](const Term& term) { return replace(term); });
   }
-  /// Called before the chain is kept: does the same as `follow` if the chain is long. Columns that
-  /// the chain is added to then need not replace these edges again, and many terms cancel.
+  /// Called before the chain is kept. Does the same as `follow` if the chain is long. Columns to
+  /// which the chain is added then need not replace these edges again, and many terms cancel.
   std::optional<Term> settle(const Term& pivot) {
     constexpr std::size_t few = 32;
     return is_cycle_ || size() < few ? pivot : follow(pivot, size());
   }
   std::size_t size() const { return heap_.size(); }
-  /// The terms of the chain, each edge once, from young to old.
+  /// The terms of the chain, from young to old. Each edge occurs once.
   std::span<const Term> consolidate() { return heap_.consolidate(); }
 
  private:
   using Terms = std::pmr::vector<Term>;
 
-  // Replaces an edge that has been removed by the rest of the boundary of the square that it is
-  // paired with inside its star. @return true if this part of the grid sees such a square.
+  // Replaces an edge that has been removed. The replacement is the rest of the boundary of the
+  // square with which the edge is paired inside its star. @return true if this part of the grid
+  // sees such a square.
   bool replace(const Term& term) {
     count(1);
     if (const Term* const next = heap_.next()) expect_star(*next);
@@ -155,7 +156,7 @@ class LoopColumn {
   const RunContext& context_;
   const bool is_cycle_;
   ChainHeap<K, Term, &LoopEdge::precedes> heap_;
-  std::size_t steps_ = 0;  // steps since the stop token was last polled
+  std::size_t steps_ = 0;  // the number of steps since the stop token was last polled
 };
 
 }  // namespace ph::cubical

@@ -11,7 +11,7 @@
 
 namespace ph::cubical {
 
-/// For each free edge: the column whose pivot it is, or null.
+/// For each free edge, the column whose pivot is this edge, or null.
 /// @tparam Stars as in LoopColumn.
 template <class Stars, class Column>
 class LoopOwners {
@@ -43,7 +43,7 @@ class LoopOwners {
  private:
   const Stars& grid_;
   const FreeEdges& free_;
-  std::pmr::vector<const Column*> owners_;  // indexed by number of the edge
+  std::pmr::vector<const Column*> owners_;  // indexed by the number of the edge
 };
 
 }  // namespace ph::cubical

@@ -15,10 +15,10 @@
 
 namespace ph::cubical {
 
-/// Computes H1 for three axes: reduces the boundaries of the critical squares that are not paired
-/// yet, which gives chains of the critical edges that are not paired yet. See ParallelReduction. If
-/// the stars are in a file that does not stay in memory, columns are processed in the order of the
-/// grid instead of from old to young.
+/// Computes H1 for three axes. The class reduces the boundaries of the critical squares that are
+/// not paired yet. The results are chains of the critical edges that are not paired yet. See
+/// ParallelReduction. If the stars are in a file that does not stay in memory, columns are
+/// processed in the order of the grid instead of from old to young.
 /// @tparam Stars StarGrid, in which edges that kill a component are marked, or StoredStars.
 template <Field K, class Stars>
 class LoopReduction {
@@ -41,7 +41,7 @@ class LoopReduction {
         reduction_(squares.order.size(), field, context) {}
 
   void run(PairSink& sink) {
-    // Starting threads would take longer than a few columns.
+    // Starting threads would take longer than reducing a few columns.
     constexpr std::size_t few = 1024, piece = 64;
     reduce_all(squares_.order.size() < few ? few : piece, false);
     for_each_class([&](const StarCell& edge, const StarCell& square, const Term&,

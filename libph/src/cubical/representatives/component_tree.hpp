@@ -15,8 +15,8 @@
 namespace ph::cubical {
 
 /// Says which items belong to a component when it dies. With `value`, they are the items that enter
-/// at a lower value than the death; with `order`, the items that enter before the death in the
-/// order of the filtration.
+/// at a lower value than the death. With `order`, they are the items that enter before the death in
+/// the order of the filtration.
 enum class Before { value, order };
 
 /// Persistent components of one of the two graphs of a grid. Unlike `ComponentPairing`, this class
@@ -54,11 +54,12 @@ class ComponentTree {
   /// The component into which a component merges, or the component itself if it never dies.
   std::uint32_t parent(std::uint32_t basin) const { return nodes_[basin].parent; }
   double death_value(std::uint32_t basin) const { return nodes_[basin].death; }
-  /// The merges in their order in time.
+  /// The merges in the order in which they happen.
   std::span<const Merge> merges() const { return merges_; }
 
-  /// The component that contains an item at the moment when the item enters. On the way up from the
-  /// component of the basin, this is the first component that does not die before the item enters.
+  /// The component that contains an item at the moment when the item enters. It is the first
+  /// component on the way up from the component of the basin that does not die before the item
+  /// enters.
   std::uint32_t holder(std::uint32_t basin, double value, std::uint32_t voxel,
                        Before before) const {
     const auto holds = [&](std::uint32_t b) {

@@ -54,7 +54,7 @@ class ForestClosing {
   };
   // The boundary of the chain at a node, or the sum of these boundaries over the nodes of a basin.
   struct AtNode {
-    std::uint64_t age;  // larger if younger
+    std::uint64_t age;  // a larger age means younger
     std::uint32_t owner, node;
     Element amount;
     auto place() const { return std::tuple(age, Graph::kBackwards ? ~owner : owner, node); }
@@ -65,7 +65,7 @@ class ForestClosing {
     auto place() const { return std::pair(depth, basin); }
   };
 
-  // Turns the bridges into rooted trees: in each set of connected basins, each basin except the
+  // Turns the bridges into rooted trees. In each set of connected basins, each basin except the
   // root gets the bridge that leads towards the root.
   void hang_up() {
     const auto merges = tree_.merges();
@@ -154,7 +154,7 @@ class ForestClosing {
       const StarCell bridge = tree_.bridge_cell(tree_.merges()[merge].bridge);
       const auto [lower, upper] = oriented_ends(tree_.graph(), bridge);
       const std::uint32_t below = tree_.basin_of(lower);
-      // True if the way up follows the direction of the edge.
+      // True if the path upwards follows the direction of the edge.
       const bool goes_up = below == at.basin;
       const Element coefficient = goes_up ? at.amount : field_.negate(at.amount);
       chain.emplace_back(bridge, coefficient);

@@ -12,9 +12,10 @@
 
 namespace ph::cubical {
 
-/// The items that each component of a tree contains at its death. Two such sets are nested or
-/// disjoint, so all sets can be stored as slices of one array. The slice of a component has the
-/// component's own items, followed by the sets of the components that merged into it earlier.
+/// The items that each component of a tree contains at its death. Two of these sets are either
+/// nested or disjoint, so all sets can be stored as slices of one array. The slice of a component
+/// starts with the component's own items. The sets of the components that merged into it earlier
+/// follow.
 class NestedSets {
  public:
   static constexpr std::uint32_t kNone = UINT32_MAX;
@@ -63,7 +64,7 @@ class NestedSets {
     const auto [begin, end] = ranges_[basin];
     return std::span(items_).subspan(begin, end - begin);
   }
-  /// True if a set holds an item. Must not be called after `forget_components`.
+  /// True if a set contains an item. Must not be called after `forget_components`.
   bool contains(std::uint32_t basin, std::uint32_t item) const {
     const std::uint32_t holder = component_of_[item];
     if (holder == kNone) return false;

@@ -22,7 +22,7 @@ namespace {
 template <class Graph>
 constexpr bool kIsDual = std::is_same_v<Graph, TopGraph>;
 
-/// The components of the V-construction of an image with one axis, as sets of voxels; with one
+/// The components of the V-construction of an image with one axis, as sets of voxels. With one
 /// axis, the T-construction has the same components.
 class LineComponents {
  public:
@@ -85,8 +85,8 @@ class Representing {
     const bool turned_around = grid_.is_t_construction();
     const VoxelGraph voxels(grid_);
     if (top < 2) {
-      // The graph of voxels is the only graph. In the T-construction it is the dual graph, which
-      // gives H0 as well.
+      // The graph of voxels is the only graph. In the T-construction, it is the dual graph, which
+      // also gives H0.
       ComponentTree<VoxelGraph> tree(grid_, voxels, edges, context_);
       if (turned_around) return add_line(tree, edges);
       add_components(tree);
@@ -131,8 +131,8 @@ class Representing {
     }
   }
 
-  // Adds the bar of a merge, with the pairs that `pair_vertices_with_edges` and
-  // `pair_facets_with_top_cells` find.
+  // Adds the bar of a merge, with the pair that `pair_vertices_with_edges` or
+  // `pair_facets_with_top_cells` finds.
   template <class Graph>
   void add_merge(ComponentTree<Graph>& tree, const ComponentTree<Graph>::Merge& merge,
                  const Fill& fill) {
@@ -152,8 +152,8 @@ class Representing {
         pairs_.essential(kIsDual<Graph> ? grid_.top_dim() : 0, tree.root_cell(b), fill_of(b));
   }
 
-  // Adds H0. Its graph has the vertices of the input as nodes: the voxels in V, the top cells of
-  // the stars' grid in T.
+  // Adds H0. The nodes of its graph are the vertices of the input. In V, they are the voxels; in T,
+  // they are the top cells of the stars' grid.
   template <class Graph>
   void add_components(ComponentTree<Graph>& tree) {
     std::optional<NestedSets> sets;
@@ -182,7 +182,7 @@ class Representing {
     std::optional<NestedSets> sets;
     std::size_t stored = 0;
     if (pairs_.wants_hollows()) stored = make_sets(tree, true, sets);
-    // If sets are wanted, few bars need a separating cycle.
+    // If sets are wanted, only a few bars need a separating cycle.
     std::unique_ptr<SeparatingCycles<Graph, K>> cycles;
     const auto separating = [&]() -> SeparatingCycles<Graph, K>& {
       if (!cycles) cycles = std::make_unique<SeparatingCycles<Graph, K>>(tree, field_, context_);
@@ -228,7 +228,7 @@ class Representing {
     rep.voxels = {stored + begin, stored + end};
   }
 
-  // Handles T with one axis or none. In this case, the graph of voxels is the dual graph: its
+  // Handles T with one axis or none. In this case, the graph of voxels is the dual graph, whose
   // components are the gaps between the components of T. As sets of voxels, the components of T
   // equal the components of V.
   void add_line(ComponentTree<VoxelGraph>& tree, const CriticalCells& edges) {
@@ -260,8 +260,8 @@ class Representing {
     }
   }
 
-  // Adds the classes that go around periodic axes, for at most two axes; they are born with the
-  // edges that are not paired.
+  // Adds the classes that go around periodic axes, for at most two axes. The edges that are not
+  // paired give birth to these classes.
   template <class Graph>
   void close_left(ComponentTree<Graph>& tree, const CriticalCells& edges) {
     if (edges.order.empty() || wants_no_loops_) return;

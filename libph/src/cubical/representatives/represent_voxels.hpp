@@ -15,7 +15,7 @@ namespace ph::cubical {
 struct RepresentedBar {
   std::span<const Index> numbers;  ///< numbers of the cells of the chain, one after another
   std::span<const std::int64_t> coefficients;
-  VoxelRange voxels;                                ///< range among the stored voxels
+  VoxelRange voxels;                                ///< the range among the stored voxels
   std::span<const Index> birth_voxel, death_voxel;  ///< coordinates; empty if there is no death
 };
 
@@ -37,10 +37,10 @@ struct RepresentativeSink {
 bool can_represent_voxels(const CubicalImage& grid);
 
 /// Computes the bars of `pair_voxels`, each with a cycle. If `kind` is voxels, bars of H0 and of
-/// the second highest dimension have a set of voxels instead. Preconditions:
+/// the second highest dimension have a set of voxels instead of a cycle. Preconditions:
 /// can_represent_voxels(grid), and `kind` is cycles or voxels. Time: three to five times the time
-/// of `pair_voxels`. Memory: 20 bytes per voxel, the critical cells and the output. It does not
-/// work in slabs: the entire image must fit in memory.
+/// of `pair_voxels`. Memory: 20 bytes per voxel, the critical cells and the output. The function
+/// does not work in slabs, so the entire image must fit in memory.
 template <Field K>
 void represent_voxels(const CubicalImage& grid, const K& field, int max_dim, Representatives kind,
                       const RunContext& context, const RepresentativeSink& sink);

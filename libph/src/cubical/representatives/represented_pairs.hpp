@@ -13,8 +13,8 @@ namespace ph::cubical {
 /// The representative of a bar, filled in by the code that finds the bar.
 template <Field K>
 struct Representation {
-  bool as_set = false;  ///< a set of voxels is wanted; code that has no set fills in the chain
-  VoxelChain<K> chain;  ///< cells of the stars' grid, each once
+  bool as_set = false;  ///< true if a set of voxels is wanted; code that has no set gives the chain
+  VoxelChain<K> chain;  ///< cells of the stars' grid, each of which occurs once
   VoxelRange voxels;
 };
 
@@ -42,8 +42,8 @@ class RepresentedPairs {
   /// hollow also goes around that axis, which a set of voxels cannot express.
   bool wants_hollows() const { return wants_sets() && grid_.shape().loop_count() == 0; }
   /// Adds a pair as PairSink::pair does. @param fill called with a Representation to fill in, once
-  /// for each kind of representation that the kept bars of this pair need: a set, a chain, both or
-  /// neither.
+  /// for each kind of representation that the kept bars of this pair need. The kinds are sets and
+  /// chains; the bars may need both or neither.
   void pair(int dim, const StarCell& birth, const StarCell& death, const Fill& fill) {
     begin(grid_.is_t_construction() ? death : birth, grid_.is_t_construction() ? &birth : &death,
           fill);
@@ -63,8 +63,8 @@ class RepresentedPairs {
     death_voxel_.reset();
     if (death != nullptr) death_voxel_ = death->voxel;
   }
-  // Called for a bar and for its copies around periodic axes with one voxel. Call number k is for
-  // the copy that goes around the axes that the bits of k name; call 0 is for the bar itself.
+  // Called for a bar and for its copies around periodic axes with one voxel. Call 0 is for the bar
+  // itself. Call number k is for the copy that goes around the axes that the bits of k name.
   void add(const Bar& bar, std::span<const Index> birth, std::span<const Index> death) {
     const unsigned loops = copies_++;
     if (!sink_.add(bar, birth, death)) return;
@@ -99,7 +99,7 @@ class RepresentedPairs {
   // for boundaries, each pair of an axis that the copy goes around and a later axis that the cell
   // spans changes the sign.
   bool is_turned(std::span<const Index> cell, unsigned loops) const {
-    bool result = false, is_odd = false;  // parity of the number of axes gone around
+    bool result = false, is_odd = false;  // the parity of the number of axes gone around
     std::size_t i = grid_.shape().loop_count();
     for (std::size_t k = 0; k < cell.size(); ++k) {
       if (i > 0 && grid_.shape().loop_axis(i - 1) == k) {
@@ -123,7 +123,7 @@ class RepresentedPairs {
                              std::span<const Index> death) { add(bar, birth, death); },
                       {},
                       {}};
-  MemoryClaim claim_;  // claims memory for the longest chain and for its numbers
+  MemoryClaim claim_;  // memory for the longest chain and for its numbers
   PairSink pairs_;
   const Fill* fill_ = nullptr;
   unsigned copies_ = 0;

@@ -17,8 +17,8 @@ class InputTopCells {
     for (int a = 0; a < 3; ++a)
       if (grid.has_axis(a)) up_[a] = 1;
   }
-  /// The number of voxels. The top cells are voxels (T), or have the number of their first voxel
-  /// (V). In V, a voxel at the upper end of an axis is not the first voxel of any top cell.
+  /// The number of voxels. In T, the top cells are voxels. In V, a top cell has the number of its
+  /// first voxel; a voxel at the upper end of an axis is not the first voxel of any top cell.
   std::uint32_t count() const { return grid_.size(); }
 
   /// The component that contains a top cell when the cell enters; kNone if no top cell has the
@@ -28,7 +28,7 @@ class InputTopCells {
       if (up_[a] != 0 && grid_.step(node, a, 1) == StarGrid::kOutside) return NestedSets::kNone;
     const std::uint32_t basin = tree.basin_of(node);
     const StarCell top = tree.graph().cell(node);
-    // A cell that never enters has no place in the order, and was always there.
+    // A cell that never enters has no place in the order, because it was always there.
     if (top.direction == Direction{}) return basin;
     return tree.holder(basin, grid_.value(top.voxel), top.voxel, Before::order);
   }
@@ -36,8 +36,8 @@ class InputTopCells {
     return tree.holder(tree.basin_of(node), grid_.value(node), node, Before::order);
   }
 
-  /// Calls `use(facet, the node on its other side, true if the incidence is 1)` for each facet of a
-  /// top cell.
+  /// Calls `use(facet, node on the other side of the facet, true if the incidence is 1)` for each
+  /// facet of a top cell.
   template <class Use>
   void for_each_facet(const TopGraph& graph, std::uint32_t node, Use&& use) const {
     for (int a = 0; a < 3; ++a) {
@@ -67,7 +67,7 @@ class InputTopCells {
   Direction up_{};
 };
 
-/// Cycles of the second highest dimension: the cycle of a component of the dual graph separates the
+/// Cycles of the second highest dimension. The cycle of a component of the dual graph separates the
 /// component, at its death, from all other top cells.
 template <class Graph, Field K>
 class SeparatingCycles {
@@ -94,8 +94,8 @@ class SeparatingCycles {
                             });
     }
     if (basin != kUpperOutside) return;
-    // The component contains a part of the outside, and therefore the top cells that border on that
-    // part.
+    // The component contains a part of the outside. It therefore also contains the top cells at the
+    // border of this part.
     for (std::uint32_t node = 0; node < cells_.count(); ++node) {
       ticker.work();
       if (cells_.holder(tree_, node) == NestedSets::kNone || sets_.contains(basin, node)) continue;

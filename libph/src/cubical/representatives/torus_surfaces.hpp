@@ -11,13 +11,13 @@
 
 namespace ph::cubical {
 
-/// Cycles of the surfaces in a grid with three periodic axes that never die.
+/// Cycles for the surfaces that never die, in a grid with three periodic axes.
 ///
 /// Top cells are connected across facets that are younger than the facet that gives birth to the
-/// surface; following these paths gives each cell a place in the universal cover of the torus. Take
-/// a linear function of the numbers of turns around the axes that vanishes on all closed paths
-/// except the path that the birth closes. This function jumps only at the facet of the birth and at
-/// older facets, and its jumps form a cycle.
+/// surface. Following these paths gives each cell a place in the universal cover of the torus.
+/// Consider a linear function of the numbers of turns around the axes that vanishes on all closed
+/// paths except the path that the birth closes. This function jumps only at the facet of the birth
+/// and at older facets, and its jumps form a cycle.
 template <Field K>
 class TorusSurfaces {
  public:
@@ -52,16 +52,16 @@ class TorusSurfaces {
   // A step from a top cell across one of its facets.
   struct Step {
     int axis;
-    std::uint32_t voxel;  // voxel of the facet
+    std::uint32_t voxel;  // the voxel of the facet
     Direction facet;
-    int turn;  // change of the number of turns around the axis
+    int turn;  // the change of the number of turns around the axis
   };
 
   Step step(std::uint32_t node, std::uint32_t to, int axis, int sign) const {
     const std::uint32_t x = grid_.coordinate(node, axis), last = grid_.extent(axis) - 1;
     const int turn = sign > 0 ? (x == last ? 1 : 0) : (x == 0 ? -1 : 0);
     Direction d{};
-    if (grid_.is_t_construction()) {  // top cells are voxels
+    if (grid_.is_t_construction()) {  // in the T-construction, top cells are voxels
       d[axis] = sign;
       return {axis, node, d, turn};
     }
@@ -81,8 +81,8 @@ class TorusSurfaces {
       }
     }
   }
-  // True if the cycle must not contain a facet, because it is younger than the birth or never
-  // enters.
+  // True if the cycle must not contain a facet, because the facet is younger than the birth or
+  // never enters.
   bool is_open(const StarCell& birth, const Step& step) const {
     const auto facet = in_its_star(grid_, step.voxel, step.facet);
     if (!facet) return true;

@@ -38,7 +38,7 @@ std::filesystem::path temporary_folder() {
   return folder;
 }
 
-/// Opens a temporary file, which is deleted when it is closed, however the process ends.
+/// Opens a temporary file. The system deletes it when it is closed, even if the process crashes.
 int open_temporary(const std::filesystem::path& folder) {
   std::random_device random;
   int file = -1, error = 0;

@@ -42,7 +42,7 @@ std::optional<Status> status_of(HANDLE handle) {
   return status;
 }
 
-/// Line ends are not converted, and child processes do not inherit the file.
+/// With these flags, line ends are not converted, and child processes do not inherit the file.
 constexpr int kBytes = _O_BINARY | _O_NOINHERIT;
 
 int open(const std::filesystem::path& path, int how) {
@@ -62,7 +62,8 @@ unsigned at_most(std::size_t bytes) {
 std::optional<Status> status_of(const std::filesystem::path& path) {
   const HANDLE handle =
       CreateFileW(path.c_str(), 0, FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE, nullptr,
-                  OPEN_EXISTING, FILE_FLAG_BACKUP_SEMANTICS, nullptr);  // opens folders as well
+                  // The flag opens folders as well.
+                  OPEN_EXISTING, FILE_FLAG_BACKUP_SEMANTICS, nullptr);
   if (handle == INVALID_HANDLE_VALUE) {
     keep_error();
     return std::nullopt;
@@ -133,7 +134,7 @@ int create_in(const std::filesystem::path& folder, std::filesystem::path& name) 
   std::random_device random;
   for (int attempt = 0; attempt < 16; ++attempt) {
     auto fresh = folder / fmt::format(".ph-{:08x}{:08x}.tmp", random(), random());
-    // FILE_SHARE_DELETE: the open file can be deleted if the process has to end.
+    // With FILE_SHARE_DELETE, the open file can be deleted if the process has to end.
     const HANDLE handle =
         CreateFileW(fresh.c_str(), GENERIC_WRITE, FILE_SHARE_READ | FILE_SHARE_DELETE, nullptr,
                     CREATE_NEW, FILE_ATTRIBUTE_NORMAL, nullptr);
@@ -147,7 +148,7 @@ int create_in(const std::filesystem::path& folder, std::filesystem::path& name) 
   return -1;
 }
 
-// Windows has only one mode bit, which forbids writing; a file with this bit would not be replaced.
+// Windows has only one mode bit, which forbids writing. A file with this bit would not be replaced.
 bool take_mode(int, const std::filesystem::path&) { return true; }
 
 std::ptrdiff_t write_some(int file, const char* from, std::size_t most) {
@@ -161,7 +162,7 @@ bool sync(int file) {
 }
 
 std::filesystem::path name_in(int, const std::filesystem::path&) {
-  errno = ENOTSUP;  // not supported: every file has a name
+  errno = ENOTSUP;  // this is not supported, because every file has a name
   return {};
 }
 
@@ -172,7 +173,7 @@ bool rename(const std::filesystem::path& from, const std::filesystem::path& to) 
   return false;
 }
 
-void sync_folder(const std::filesystem::path&) {}  // `rename` already waits
+void sync_folder(const std::filesystem::path&) {}  // `rename` waits for the disk
 
 void remove(const std::filesystem::path& path) { _wunlink(path.c_str()); }
 

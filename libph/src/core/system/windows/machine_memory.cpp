@@ -2,7 +2,7 @@
 #include "ph/detail/core/machine_memory.hpp"
 
 #include <windows.h>
-// Must follow windows.h, whose types it uses.
+// This header must follow windows.h, because it uses types of windows.h.
 #include <psapi.h>
 
 namespace ph {

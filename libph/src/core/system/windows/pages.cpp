@@ -26,7 +26,7 @@ void* map_pages(std::size_t bytes) {
 void unmap_pages(void* block, std::size_t) { VirtualFree(block, 0, MEM_RELEASE); }
 
 void drop_pages(void* block, std::size_t bytes) {
-  // Resets the complete pages inside the block: the system need not keep their content, and they
+  // Resets the complete pages inside the block. The system need not keep their content, and they
   // may be written again.
   const auto begin = reinterpret_cast<std::uintptr_t>(block), end = begin + bytes;
   const std::uintptr_t first = (begin + kSmallestPage - 1) / kSmallestPage * kSmallestPage;
