@@ -51,7 +51,7 @@ double root_mean_square(const std::vector<double>& numbers) {
 }
 
 /// The index of the diagram with the least sum of squared distances to all diagrams. If several
-/// diagrams attain it, returns the first of them.
+/// diagrams have the least sum, returns the first of them.
 std::size_t medoid(Diagrams diagrams, const RunContext& context) {
   const DistanceMatrix distances = diagram_distances(
       diagrams,
@@ -77,8 +77,8 @@ std::size_t medoid(Diagrams diagrams, const RunContext& context) {
 }
 
 /// The mean of `count` points. The first points are the given bars. If there are fewer bars than
-/// `count`, the other points are copies of one point: the point on the diagonal that is nearest to
-/// the mean of the bars. Infinite ends stay infinite.
+/// `count`, all other points are the point on the diagonal that is nearest to the mean of the bars.
+/// Infinite ends stay infinite.
 Bar mean_of(const std::vector<Bar>& partners, std::size_t count) {
   const auto n = static_cast<double>(partners.size());
   double birth = 0, death = 0;
@@ -100,7 +100,7 @@ class Alternation {
       if (bar.birth < bar.death) bars_.push_back({0, bar.birth, bar.death});
   }
 
-  /// Matches each diagram with the present bars. @return the root mean square of the distances.
+  /// Matches each diagram with the current bars. @return the root mean square of the distances.
   double match() {
     const diagram::ThreadContexts contexts(diagrams_.size(), context_);
     for_each_piece("barycentre", diagrams_.size(), 1, context_,

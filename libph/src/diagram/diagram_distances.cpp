@@ -13,7 +13,7 @@ using Diagram = std::span<const Bar>;
 
 struct Pair {
   Diagram a, b;
-  std::size_t place;  ///< place of its distance in the result
+  std::size_t place;  ///< the place of its distance in the result
 
   std::size_t bars() const { return a.size() + b.size(); }
 };
@@ -24,12 +24,12 @@ struct Pair {
 template <class AddPairs>
 std::vector<double> distances_of(std::size_t count, const DiagramDistance& distance,
                                  const RunContext& context, AddPairs&& add_pairs) {
-  // The claim counts half of the sorted list once more, for the buffer of the stable sort.
+  // The claim counts half of the sorted list a second time, for the buffer of the stable sort.
   const MemoryClaim claim(context.memory, count * (3 * sizeof(Pair) / 2 + sizeof(double)));
   std::vector<Pair> pairs;
   pairs.reserve(count);
   add_pairs(pairs);
-  // The largest pairs come first, which keeps a thread from starting a large pair at the end.
+  // The largest pairs come first, so that no thread starts a large pair at the end.
   std::ranges::stable_sort(pairs, std::ranges::greater(), &Pair::bars);
   std::vector<double> result(pairs.size());
   const diagram::ThreadContexts contexts(pairs.size(), context);

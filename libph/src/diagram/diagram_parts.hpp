@@ -21,10 +21,10 @@ struct PlacedEnd {
 /// The bars of a diagram, grouped by which of their ends are finite. A bar with one infinite end is
 /// represented by its finite end.
 struct DiagramParts {
-  std::vector<Point> finite;  // longest first, bars of equal length in their original order
+  std::vector<Point> finite;  // longest first; bars of equal length are in their original order
   std::vector<std::uint32_t> places;
-  // rays[0] holds the births of the bars that never die, rays[1] the deaths of the bars that have
-  // no birth.
+  // rays[0] contains the births of the bars that never die. rays[1] contains the deaths of the bars
+  // that have no birth.
   std::vector<PlacedEnd> rays[2];
   std::vector<std::uint32_t> lines;  // bars without birth and death
 
@@ -33,7 +33,8 @@ struct DiagramParts {
   DiagramParts(std::span<const Bar> bars, std::string_view function);
 };
 
-/// True if the infinite bars can be paired: both diagrams have the same number of each kind.
+/// True if the infinite bars can be paired, that is, both diagrams have the same number of each
+/// kind.
 bool have_as_many_infinite(const DiagramParts& a, const DiagramParts& b);
 
 /// Pairs the infinite bars of each kind in the order of their finite ends, and appends the pairs.

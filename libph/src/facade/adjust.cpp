@@ -104,7 +104,7 @@ MergeTree with_input_ids(MergeTree tree, std::span<const Index> ids, std::size_t
 
 Barcode cut_at(const Barcode& barcode, const ExplicitComplex& complex, double threshold,
                double min_persistence) {
-  // A cycle has no cell after its birth; a cocycle has cells of any age.
+  // A cycle has no cell that enters after its birth, but a cocycle has cells of any age.
   std::set<Numbers> beyond;
   if (barcode.representatives() == Representatives::cocycles)
     beyond = cells_beyond(complex, threshold);

@@ -16,8 +16,8 @@
 namespace ph {
 namespace {
 
-// An estimate may collapse up to this many edges: with more, the collapse takes longer than about a
-// second.
+// An estimate may collapse up to this number of edges. With more edges, the collapse takes longer
+// than about a second.
 constexpr std::size_t kFewEdges = 300'000;
 
 template <Filtration F>
@@ -72,7 +72,7 @@ detail::MemoryForecast forecast_voxels(const Cubical& cubical, double held,
   const bool is_short = forecast.high - held > left || context.slab_layers > 0;
   if (!is_short || with_representatives) return forecast;
   forecast.low = held + cubical::least_bytes_to_pair_voxels(grid);
-  constexpr double bytes_of_bars = 8;  // per voxel, measured on noise
+  constexpr double bytes_of_bars = 8;  // measured on noise, per voxel
   if (cubical::can_pair_by_layers(grid, wanted))
     forecast.high = std::max(std::min(forecast.high, held + left),
                              forecast.low + bytes_of_bars * static_cast<double>(grid.size()));
@@ -148,8 +148,8 @@ Estimate estimate_built(const Rips& rips, const RunPlan& planned, const RunConte
   return e;
 }
 
-/// The estimate for a filtration whose edges do not fit into memory; their number is estimated from
-/// a sample of pairs.
+/// The estimate for a filtration whose edges do not fit into memory. The number of edges is
+/// estimated from a sample of pairs.
 Estimate estimate_sampled(const Rips& rips, const Options& options, const RunContext& context) {
   Estimate e;
   static_cast<RunPlan&>(e) = detail::plan_without_edges(rips, options);
@@ -162,7 +162,8 @@ Estimate estimate_sampled(const Rips& rips, const Options& options, const RunCon
   return e;
 }
 
-/// False if making the edges would take long and a sample says that they do not fit.
+/// False if making the edges would take long and a sample indicates that they do not fit into
+/// memory.
 bool can_be_tried(const Rips& rips, const RunContext& context) {
   constexpr double bytes_of_edge = 16;
   constexpr Index few_points = 60'000;  // computing their distances takes seconds

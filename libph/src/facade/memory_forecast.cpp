@@ -14,31 +14,32 @@
 namespace ph::detail {
 namespace {
 
-// Bytes per bar while bars are sorted, and additional bytes per bar for its birth and death cells
-// (vertex and edge, or edge and triangle).
+// The first constant is the number of bytes per bar while bars are sorted. The second constant is
+// the additional number of bytes per bar for its birth and death cells (vertex and edge, or edge
+// and triangle).
 constexpr double kBytesPerBar = 24 + 24, kBytesPerCells = 32 + 5 * 8 + 48;
 double bytes_per_bar(const Options& options) {
   return kBytesPerBar + (options.cells ? kBytesPerCells : 0);
 }
 
-// Bytes that every run takes: small containers, the allocator, and the pages of the program's own
-// code.
+// The number of bytes that every run takes. They are used by small containers, the allocator, and
+// the pages of the program's own code.
 constexpr double kAlways = 4 << 20;
 // These constants determine how many cells the engine lists in the larger of the parts that it
-// computes: enough to show how memory grows, but few enough to take only seconds and a fraction of
-// the total time.
+// computes. The number is large enough to show how memory grows. It is small enough to take only
+// seconds and a fraction of the total time.
 constexpr double kPilotEdges = 40'000, kPilotCells = 60'000, kPilotShare = 0.125;
 constexpr double kMostPilotEdges = 4e6, kMostPilotCells = 250'000;
-// Safety margins. As measurements show, memory grows in leaps. It also grows faster from a part to
-// the entire complex than from one part to the next, unless the complex consists of many similar
-// parts side by side.
+// These constants are safety margins. Measurements show that memory grows in leaps. It also grows
+// faster from a part to the entire complex than from one part to the next, unless the complex
+// consists of many similar parts side by side.
 constexpr double kMargin = 3, kPowerMargin = 0.35, kPowerMarginOfLocal = 0.1;
 
 double sum(std::span<const double> counts) {
   return std::accumulate(counts.begin(), counts.end(), 0.0);
 }
 
-/// The memory for bit rows or adjacency lists, which does not depend on the homology. It does not
+/// The memory for bit rows or adjacency lists. It does not depend on the homology, and does not
 /// include the edges.
 double structure(std::size_t size, std::size_t edge_count, Engine engine) {
   if (const auto bytes_of_engine = facts_of(engine).rips_bytes)
@@ -52,7 +53,7 @@ double structure(const RipsGraph& graph, Engine engine) {
   return structure(static_cast<std::size_t>(graph.size()), graph.edge_count(), engine);
 }
 
-/// A part of a complex: the chosen vertices with all edges between them.
+/// A part of a complex, which consists of the chosen vertices and all edges between them.
 RipsGraph induced(const RipsGraph& graph, std::span<const std::uint32_t> vertices,
                   const RunContext& context) {
   constexpr std::uint32_t none = UINT32_MAX;
@@ -77,8 +78,9 @@ RipsGraph induced(const RipsGraph& graph, std::span<const std::uint32_t> vertice
                              weights);
 }
 
-/// A run of the engine on a part of a complex: the number of cells that the engine listed, and the
-/// bytes that it took in addition to the edges, `structure` and the bars of H0.
+/// The results of running the engine on a part of a complex. They are the number of cells that the
+/// engine listed, and the bytes that it took in addition to the edges, `structure` and the bars of
+/// H0.
 struct Pilot {
   double listed = 0, extra = 0;
 };
@@ -106,9 +108,9 @@ double listed_of(const RipsGraph& part, const Options& options, const RunContext
       count_cliques(part, listed_rips_dim(options.engine, *options.max_dim), context).counts);
 }
 
-/// Orders the vertices in such a way that any number of first vertices spans a part that is similar
-/// to the entire graph. The order is random if most pairs are edges, otherwise breadth first around
-/// a vertex.
+/// Orders the vertices so that any number of first vertices spans a part that is similar to the
+/// entire graph. The order is random if most pairs of vertices are edges. Otherwise it is breadth
+/// first, starting from a vertex.
 std::vector<std::uint32_t> order_of(const RipsGraph& graph, std::uint64_t seed) {
   std::vector<std::uint32_t> order(static_cast<std::size_t>(graph.size()));
   std::iota(order.begin(), order.end(), 0U);
@@ -134,7 +136,8 @@ std::vector<std::uint32_t> order_of(const RipsGraph& graph, std::uint64_t seed) 
 }
 
 /// The number of vertices at the beginning of `order` that span a part in which the engine lists
-/// about `wanted` cells. @param listed the number of cells that it lists in the entire complex.
+/// about `wanted` cells. @param listed the number of cells that the engine lists in the entire
+/// complex.
 std::size_t pilot_size(const RipsGraph& graph, std::span<const std::uint32_t> order, double listed,
                        double wanted, const Options& options, const RunContext& context) {
   std::size_t size = order.size();
@@ -176,8 +179,8 @@ MemoryForecast forecast_rips(const RipsGraph& graph, std::span<const double> cel
   };
   const Pilot large = pilot(1, wanted);
   if (large.listed >= listed) return {least, most + 1.25 * large.extra};
-  // The extra memory is taken to be proportional to listed^power. The power is fitted to the large
-  // part and to the mean of two smaller parts: a mean, because memory grows in leaps.
+  // The extra memory is assumed to be proportional to listed^power. The power is fitted to the
+  // large part and to the mean of two smaller parts. A mean is used because memory grows in leaps.
   Pilot small;
   for (const std::uint64_t seed : {1, 2}) {
     const Pilot one = pilot(seed, wanted / 4);
@@ -193,7 +196,7 @@ MemoryForecast forecast_rips(const RipsGraph& graph, std::span<const double> cel
 }
 
 MemoryForecast forecast_edges(Index vertices, double edges, const Options& options) {
-  // The sample tells how many edges there are, but not how much memory the engine needs for them.
+  // The sample gives the number of edges, but not the memory that the engine needs for them.
   constexpr double fewer = 0.9, margin = 3;
   const double held = 16 * edges;
   const double known = held + structure(static_cast<std::size_t>(vertices),
@@ -223,7 +226,7 @@ MemoryForecast forecast_points(PointsView points, std::optional<double> threshol
     const Barcode barcode = persistence(Rips(std::move(sample), rips_options, own), options, own);
     return static_cast<double>(own.memory.peak());
   };
-  const double least = 2.5 * held;  // the tree holds a copy of the points, and boxes
+  const double least = 2.5 * held;  // the tree has a copy of the points, and boxes
   if (points.rows() == 0) return {held, held + kAlways};
   const Index large = std::min(kLarge, points.rows()), small = std::min(kSmall, points.rows());
   const double of_large = peak_of(large);
@@ -232,8 +235,8 @@ MemoryForecast forecast_points(PointsView points, std::optional<double> threshol
   if (small < large)
     power = std::log(of_large / of_small) /
             std::log(static_cast<double>(large) / static_cast<double>(small));
-  // Measured: in addition to the data per point, memory holds pairs of nodes on opposite sides of
-  // holes while they wait in the queue. The power is therefore raised.
+  // Measurements show that memory contains, in addition to the data per point, pairs of nodes on
+  // opposite sides of holes while these pairs wait in the queue. The power is therefore raised.
   power = std::clamp(power, 1.0, 1.6) + kPowerMarginOfLocal;
   const double factor = static_cast<double>(points.rows()) / static_cast<double>(large);
   return {least, held + 2 * of_large * std::pow(factor, power) +
@@ -242,8 +245,8 @@ MemoryForecast forecast_points(PointsView points, std::optional<double> threshol
 
 MemoryForecast forecast_voxels(double stored, double voxels, double cells,
                                bool with_representatives) {
-  // Bytes measured on noise, for critical cells with their columns and for bars. Representatives
-  // take more, because their chains are long.
+  // These numbers of bytes were measured on noise, for critical cells with their columns and for
+  // bars. Representatives take more memory, because their chains are long.
   const double bytes_per_cell = with_representatives ? 90 : 20;
   constexpr double least_cells_per_voxel = 8;
   return {stored,
@@ -251,14 +254,15 @@ MemoryForecast forecast_voxels(double stored, double voxels, double cells,
 }
 
 MemoryForecast forecast_intervals(double stored, bool with_representatives) {
-  // Measured: multiples of the stored bytes. They allow for critical simplices with their columns
-  // (almost none for a surface, many for noise) and, with representatives, for cycles.
+  // These factors are measured multiples of the stored bytes. They allow for critical simplices
+  // with their columns (almost none for a surface, many for noise) and, with representatives, for
+  // cycles.
   return {stored, (with_representatives ? 5.5 : 2.0) * stored + kAlways};
 }
 
 MemoryForecast forecast_cells(double stored, std::span<const double> cells) {
-  // Bytes per cell: either for a column with its entries in the table of pivots and in the list of
-  // columns to reduce, or for the pair of the cell. Fill-in is not counted.
+  // The number of bytes per cell is either for a column with its entries in the table of pivots and
+  // in the list of columns to reduce, or for the pair of the cell. Fill-in is not counted.
   constexpr double bytes_per_column = 128;
   return {stored, stored + bytes_per_column * sum(cells) + kAlways};
 }

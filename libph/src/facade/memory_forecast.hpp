@@ -23,25 +23,27 @@ int listed_rips_dim(Engine engine, int max_dim);
 MemoryForecast forecast_rips(const RipsGraph& graph, std::span<const double> cells,
                              const Options& options, const RunContext& context);
 
-/// The same if there are too many edges to make them: the forecast uses their approximate number.
+/// Does the same as `forecast_rips` if there are too many edges to make them. The forecast uses the
+/// approximate number of edges.
 MemoryForecast forecast_edges(Index vertices, double edges, const Options& options);
 
-/// The same for an engine that takes only points: the engine computes two samples of them.
+/// Does the same as `forecast_rips` for an engine that takes only points. The engine computes two
+/// samples of the points.
 /// @param points must be enough points for the engine. @param options must name an engine.
 MemoryForecast forecast_points(PointsView points, std::optional<double> threshold,
                                const Options& options, const RunContext& context);
 
-/// The same for an image that is paired voxel by voxel. The lower bound is for a smooth image,
-/// which has almost no critical cells; the upper bound is for noise. @param stored the bytes of the
-/// image and of the data kept per voxel.
+/// Forecasts the memory for an image that is paired voxel by voxel. The lower bound is for a smooth
+/// image, which has almost no critical cells. The upper bound is for noise. @param stored the bytes
+/// of the image and of the data kept per voxel.
 MemoryForecast forecast_voxels(double stored, double voxels, double cells,
                                bool with_representatives);
 
-/// The same for an alpha complex whose simplices are paired by intervals.
+/// Forecasts the memory for an alpha complex whose simplices are paired by intervals.
 MemoryForecast forecast_intervals(double stored, bool with_representatives);
 
-/// The forecast for any other complex that numbers or stores its cells, from the number of cells
-/// alone.
+/// Forecasts the memory for any other complex that numbers or stores its cells, from the number of
+/// cells alone.
 MemoryForecast forecast_cells(double stored, std::span<const double> cells);
 
 }  // namespace ph::detail

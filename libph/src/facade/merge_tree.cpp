@@ -58,11 +58,11 @@ std::vector<Index> MergeTree::components(double value) const {
     parent[v] = births[v] <= value && births[v] < kInfinity ? static_cast<Index>(v) : -1;
   for (const Merge& m : merges) {
     // mutant: merges-at-value
-    if (!(m.value <= value)) break;  // stops at once if `value` is NaN
+    if (!(m.value <= value)) break;  // the loop stops at once if `value` is NaN
     parent[static_cast<std::size_t>(m.younger)] = m.elder;
   }
-  // A parent was born before its child, so the loop that follows parents ends at a root. It halves
-  // the path on its way, which makes later searches faster.
+  // A parent was born before its child, so the loop that follows parents ends at a root. The loop
+  // also halves the path, which makes later searches faster.
   for (std::size_t v = 0; v < parent.size(); ++v) {
     for (Index root = parent[v]; root >= 0;) {
       Index& up = parent[static_cast<std::size_t>(root)];
@@ -131,7 +131,8 @@ std::vector<Branch> MergeTree::branches() const {
 }
 
 std::vector<LinkageRow> linkage(const MergeTree& tree) {
-  std::vector<Index> cluster(tree.births.size());  // cluster of each vertex that gave birth to one
+  // The cluster of each vertex that gave birth to a cluster.
+  std::vector<Index> cluster(tree.births.size());
   std::iota(cluster.begin(), cluster.end(), Index{0});
   std::vector<LinkageRow> rows;
   rows.reserve(tree.merges.size());

@@ -39,7 +39,7 @@ Barcode persistence(const Cubical& cubical, const Options& options, const RunCon
 Barcode persistence(const ExplicitComplex& complex, const Options& options,
                     const RunContext& context) {
   if (!complex.threshold()) return detail::compute(complex, options, context);
-  // A class that outlives the threshold becomes an infinite bar, however short its full bar is.
+  // A class that outlives the threshold becomes an infinite bar, even if its full bar is short.
   // Short bars are therefore removed only after the cut.
   Options all = options;
   all.min_persistence = std::min(options.min_persistence, 0.0);

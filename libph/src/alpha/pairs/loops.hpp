@@ -20,7 +20,6 @@ namespace ph::alpha {
 /// the columns that are added to a column are then near it in memory. If a column reaches the pivot
 /// of a younger column, it takes over that pivot, and the younger column is reduced further
 /// (Morozov & Nigmetov, Towards lockfree persistent homology, 2020). As in the standard algorithm,
-/// only older columns are added to younger columns.
 /// columns are added to younger ones.
 ///
 /// In a periodic space, each boundary that is reduced to zero gives birth to an essential class of

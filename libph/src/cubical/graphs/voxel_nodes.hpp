@@ -9,7 +9,6 @@ namespace ph::cubical {
 /// The nodes of a graph of voxels for any number of axes. They are the voxels and the outside,
 /// which has two parts if only one axis has ends. The outside was always there. Voxels that never
 /// enter in the T-construction, where they are not cells, were also always there.
-/// that never enter in the T-construction, where they are not cells.
 /// @tparam Grid a SlabFrame that knows which voxels enter.
 template <class Grid>
 class VoxelNodes {

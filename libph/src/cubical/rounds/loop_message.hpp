@@ -18,9 +18,9 @@
 
 namespace ph::cubical {
 
-/// A message, as bytes, from one part of a grid to another while both reduce columns. It has the
-/// stars of the layers that are ghosts of the receiver, and columns whose pivots belong to the
-/// receiver.
+/// A message, as bytes, from one part of a grid to another while both parts reduce columns. It
+/// contains the stars of the layers that are ghosts of the receiver, and columns whose pivots
+/// belong to the receiver.
 template <Field K>
 class LoopMessage {
  public:
@@ -32,12 +32,12 @@ class LoopMessage {
     std::uint64_t number;  ///< counts messages from sender to receiver
   };
   struct Layer {
-    std::uint64_t layer;  ///< layer in the stars' grid
+    std::uint64_t layer;  ///< the layer in the stars' grid
     std::vector<std::uint32_t> stars;
   };
   struct Column {
     LoopSquare square;             ///< the square whose boundary was reduced to this column
-    std::pmr::vector<Term> terms;  ///< from young to old
+    std::pmr::vector<Term> terms;  ///< sorted from young to old
   };
 
   /// A message to one part, while it is being written.

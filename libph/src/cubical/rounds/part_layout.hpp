@@ -9,10 +9,10 @@
 
 namespace ph::cubical {
 
-/// Says which layers of a grid each of its parts has. Unless the first layers of the parts are
-/// given, part p has the layers from n · p / parts up to n · (p + 1) / parts of the n layers of the
-/// slowest axis, counted as in the input. All layers and voxels in this class are counted as in the
-/// stars' grid (GridFrame), which in the T-construction counts from the other end.
+/// Describes which layers of a grid each part of the grid has. The n layers of the slowest axis are
+/// counted as in the input. Unless the first layers of the parts are given, part p has the layers
+/// from n · p / parts up to n · (p + 1) / parts. All layers and voxels in this class are counted as
+/// in the stars' grid (GridFrame), which counts from the other end in the T-construction.
 class PartLayout {
  public:
   /// Consecutive layers.
@@ -52,7 +52,7 @@ class PartLayout {
                             first_layers_.begin()) -
            1;
   }
-  /// Converts layers of the stars' grid to layers of the input, and the reverse.
+  /// Converts layers of the stars' grid to layers of the input, and vice versa.
   Layers turned(const Layers& layers) const {
     return from_end_ ? Layers{layers_ - layers.end, layers_ - layers.begin} : layers;
   }
@@ -68,7 +68,7 @@ class PartLayout {
   std::uint64_t first_voxel(int part) const {
     return (own(part).begin - (place(part).has_ghost_before() ? 1 : 0)) * layer_size_;
   }
-  /// The layers that are ghosts of a part; in a ring of two layers, both ghosts may be the same
+  /// The layers that are ghosts of a part. In a ring of two layers, both ghosts may be the same
   /// layer.
   std::vector<std::uint64_t> ghosts(int part) const {
     std::vector<std::uint64_t> layers;

@@ -85,7 +85,7 @@ void PartLoops<K>::tell_layers() {
     layers.erase(std::unique(layers.begin(), layers.end()), layers.end());
     for (const std::uint64_t layer : layers) {
       if (layout_.part_of(layer) != part_) continue;
-      if (to == part_)  // the other end of a ring
+      if (to == part_)  // the ghost is at the other end of a ring
         layers_missing_ -= *grid_.hear(layer, grid_.layer(layer));
       else
         outbox_[to].add_layer(layer, grid_.layer(layer));
@@ -161,9 +161,9 @@ void PartLoops<K>::assign(Chain& chain, std::uint32_t i) {
 template <Field K>
 bool PartLoops<K>::is_done(std::uint32_t i, std::optional<Term>& pivot, Chain& chain) {
   const auto is_here = [&] { return pivot && grid_.owns(pivot->cell.voxel()); };
-  // Expanding cells that this part sees takes about as long as sending them; the limit keeps a
-  // single column from taking very long. When cells have been expanded, the pivot may be an edge of
-  // this part.
+  // Expanding the cells that this part sees takes about as long as sending them. The limit prevents
+  // a single column from taking very long. After cells have been expanded, the pivot may be an edge
+  // of this part.
   constexpr std::size_t few = 64, times = 4;
   // mutant: column-goes
   if (pivot && !is_here()) pivot = chain.follow(*pivot, times * (chain.size() + few));
@@ -192,7 +192,7 @@ void PartLoops<K>::work(std::size_t most) {
     queue_.clear();
     next_ = 0;
   }
-  // Starting threads would take longer than a few columns.
+  // Starting threads would take longer than reducing a few columns.
   constexpr std::size_t few = 1024, piece = 64;
   reduction_->run_some(
       std::move(round), "loops", count < few ? few : piece,

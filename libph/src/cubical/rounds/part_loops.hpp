@@ -21,9 +21,9 @@
 namespace ph::cubical {
 
 /// Computes H1 for three axes in one part of a grid. It works like LoopReduction, except that a
-/// column belongs to the part that has the star of its pivot: if the pivot turns out to be in
-/// another part, the column is sent there. Columns are therefore added only within a part, and no
-/// part waits for an answer. See docs/explanation/engines/slabs.md.
+/// column belongs to the part that has the star of its pivot. If the pivot turns out to be in
+/// another part, the column is sent to that part. Columns are therefore added only within a part,
+/// and no part waits for an answer. See docs/explanation/engines/slabs.md.
 template <Field K>
 class PartLoops {
   using Chain = LoopColumn<K, PartStars>;
@@ -48,17 +48,17 @@ class PartLoops {
   PartLoops& operator=(const PartLoops&) = delete;
 
   /// Starts the reduction. @param free the cells of the part that neither graph pairs.
-  /// @throws Error (bad_data) if they are not such cells.
+  /// @throws Error (bad_data) if `free` contains other cells.
   void begin(FreeCells free);
-  /// Reads a message from another part, which may come before `begin`.
-  /// @throws Error (bad_data) if the message is damaged or has come before.
+  /// Reads a message from another part, which may arrive before `begin` is called.
+  /// @throws Error (bad_data) if the message is damaged or has already been received.
   void receive(std::span<const std::byte> message);
   /// True if there is nothing to do until a message is received.
   bool is_idle() const { return !is_ready() || next_ == queue_.size(); }
-  /// Reduces at most `most` columns as far as this part can.
+  /// Reduces at most `most` columns, as far as this part can reduce them.
   void work(std::size_t most);
-  /// Calls `use(part, bytes)` with each message that is to be sent to another part since the last
-  /// call.
+  /// Calls `use(part, bytes)` with each message to another part that has been written since the
+  /// last call.
   template <class Use>
   void send(Use&& use) {
     for (auto& [to, writer] : outbox_)
@@ -90,18 +90,18 @@ class PartLoops {
   const RunContext& context_;
   PartStars& grid_;
   std::size_t layers_missing_ = 0;             // ghost layers that have not arrived yet
-  std::vector<std::vector<std::byte>> early_;  // messages that came before `begin`
-  // For each sender, by number of the message: true if the message was received.
+  std::vector<std::vector<std::byte>> early_;  // messages that arrived before `begin` was called
+  // For each sender, indexed by the number of the message, true if the message was received.
   std::map<int, std::vector<bool>> heard_;
 
   FreeEdges free_;
-  // The squares of the columns; squares of this part come first, from old to young.
+  // The squares of the columns. The squares of this part come first, from old to young.
   std::pmr::vector<LoopSquare> squares_;
   std::size_t own_ = 0;
-  // Columns that arrived from other parts, until they are reduced here.
+  // Columns from other parts that have not been reduced here yet.
   std::pmr::vector<std::pmr::vector<Term>> arrived_;
   std::pmr::vector<std::uint32_t> queue_;
-  std::size_t next_ = 0;  // position in the queue
+  std::size_t next_ = 0;  // the position in the queue
   std::optional<LoopOwners<PartStars, Column>> owners_;
   std::optional<Reduction> reduction_;
 

@@ -12,7 +12,7 @@
 namespace ph::cubical {
 
 /// The stars of a part of a grid, and the stars of its ghosts once the other parts have sent them.
-/// Cells have the same names as in the entire grid, which lets chains go anywhere.
+/// Cells have the same names as in the entire grid, so chains can be sent to any part.
 class PartStars : public StarGrid {
  public:
   /// @param voxels the voxels of the part and its ghosts.
@@ -24,10 +24,10 @@ class PartStars : public StarGrid {
         begin_(layout.own(part).begin * layer_size()),
         count_(layout.own(part).count() * layer_size()) {}
 
-  /// True if the part has a voxel of the entire grid as its own.
+  /// True if a voxel of the entire grid belongs to the part itself.
   bool owns(std::uint64_t voxel) const { return voxel - begin_ < count_; }
-  /// True if the part sees a voxel at its usual place: the part's own voxels and its ghosts, except
-  /// for ghosts from the other end of a ring.
+  /// True if the part sees a voxel at its usual place. The part sees its own voxels and its ghosts,
+  /// except for ghosts from the other end of a ring.
   bool sees(std::uint64_t voxel) const { return voxel - first_ < size(); }
   /// The local number of a voxel. Precondition: sees(voxel).
   std::uint32_t here(std::uint64_t voxel) const {
@@ -43,7 +43,8 @@ class PartStars : public StarGrid {
   std::uint64_t in_whole(std::uint32_t v) const {
     const std::uint64_t voxel = first_ + v;  // modulo 2^64
     if (voxel < whole_) return voxel;
-    return is_before(v) ? voxel + whole_ : voxel - whole_;  // a ghost at an end of a ring
+    // The voxel is a ghost at an end of a ring.
+    return is_before(v) ? voxel + whole_ : voxel - whole_;
   }
   const StarTables& tables(std::uint32_t v) const {
     // This ghost may be the first layer of a ring.
@@ -60,8 +61,8 @@ class PartStars : public StarGrid {
   void mark_own(const FreeEdges& free) {
     mark_all_but(*this, free, here(begin_), here(begin_ + count_));
   }
-  /// Stores the stars of a layer, as sent by the part that owns it, wherever that layer is a ghost
-  /// here.
+  /// Stores the stars of a layer that another part owns, in each place where the layer is a ghost
+  /// of this part.
   /// @return the number of ghost layers filled, or nothing if the two parts disagree about the
   /// voxels that enter.
   std::optional<std::size_t> hear(std::uint64_t of_whole, std::span<const std::uint32_t> stars) {
@@ -77,7 +78,7 @@ class PartStars : public StarGrid {
   }
 
  private:
-  // For a voxel of a ghost layer: true if that layer lies before the part.
+  // For a voxel of a ghost layer, true if that layer is before the part.
   bool is_before(std::uint32_t v) const { return slab().has_ghost_before() && v < layer_size(); }
 
   std::uint64_t whole_, first_, begin_, count_;

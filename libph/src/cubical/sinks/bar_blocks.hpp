@@ -11,8 +11,9 @@
 
 namespace ph::cubical {
 
-/// Passes bars to a sink, many at a time, or one by one if their cells are wanted. Each bar is
-/// passed on together with its copies that go around periodic axes with one voxel.
+/// Passes bars to a sink. It passes on many bars at a time, or single bars if their cells are
+/// wanted. Each bar is passed on together with its copies that go around periodic axes with one
+/// voxel.
 class BarBlocks {
  public:
   /// @param loop_count the number of periodic axes with one voxel.

@@ -15,8 +15,8 @@ class CellSink {
       : grid_(grid), blocks_(grid.loop_count(), wants_cells, bars) {}
 
   /// Adds a class of dimension `dim` that is born with a cell and killed by a cell one dimension
-  /// higher. It becomes a bar unless both cells have the same value. Without a death, the class
-  /// never dies.
+  /// higher. The class becomes a bar unless both cells have the same value. If no death is given,
+  /// the class never dies.
   void add(int dim, CellGrid::Name birth, std::optional<CellGrid::Name> death) {
     const double from = grid_.value(birth), to = death ? grid_.value(*death) : kInfinity;
     if (from == to) return;

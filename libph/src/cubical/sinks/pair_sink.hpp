@@ -19,12 +19,12 @@ class PairSink {
   /// Lets the receiver reserve memory for about `count` more pairs.
   void expect(std::size_t count) const { bars_.expect(count); }
   /// Adds a class of dimension `dim` that is born with a cell and killed by a cell one dimension
-  /// higher. It becomes a bar unless both cells have the same value. @tparam Cell has the members
-  /// of StarCell; its voxel may have 32 or 64 bits.
+  /// higher. The class becomes a bar unless both cells have the same value.
+  /// @tparam Cell has the members of StarCell; its voxel may have 32 or 64 bits.
   template <class Cell>
   void pair(int dim, const Cell& birth, const Cell& death) {
     if (birth.value == death.value) return;
-    if (grid_.is_t_construction())  // birth and death swap roles
+    if (grid_.is_t_construction())  // here birth and death swap roles
       add({grid_.top_dim() - dim - 1, value(death), value(birth)}, death, &birth);
     else
       add({dim, value(birth), value(death)}, birth, &death);

@@ -119,7 +119,8 @@ void LayerPairs::settle_vertices(PairSink& pairs, FreeCellSink* free) {
       },
       [&](const SeamBridge& bridge) {
         // mutant: slab-circle
-        if (grid_.top_dim() == 1) pairs.essential(1, edge(bridge));  // an edge that closes a circle
+        // This edge closes a circle.
+        if (grid_.top_dim() == 1) pairs.essential(1, edge(bridge));
         if (free != nullptr) free->add_edge(bridge.cell);
         if (may_have_neither_) around.meet(bridge.value, bridge.cell);
       },

@@ -14,10 +14,10 @@
 
 namespace ph::cubical {
 
-/// Finds the edges of a grid with two axes that neither graph pairs. On a torus there are two such
-/// edges, and their classes never die. The graph of voxels passes on the edges that do not join
-/// components. The graph of top cells later meets each of these edges; if the edge joins components
-/// there, it is in a pair.
+/// Finds the edges of a grid with two axes that neither graph pairs. On a torus there are two of
+/// these edges, and their classes never die. The graph of voxels passes on the edges that do not
+/// join components. The graph of top cells later visits each of these edges. If the edge joins
+/// components there, it is in a pair.
 class EdgesInNeither {
  public:
   explicit EdgesInNeither(std::pmr::memory_resource* memory) : met_once(memory) {}
@@ -32,9 +32,9 @@ class EdgesInNeither {
   std::pmr::map<GridCell, double> met_once;
 };
 
-/// Computes the pairs of a grid layer by layer, except for loops of three axes. The layers added so
-/// far are represented by the components of the two graphs; a pair is passed on as soon as no other
-/// layer can change it.
+/// Computes the pairs of a grid layer by layer, except for the pairs of loops in a grid with three
+/// axes. The layers added so far are represented by the components of the two graphs. A pair is
+/// passed on as soon as no other layer can change it.
 class LayerPairs {
  public:
   /// The graphs that are needed.
@@ -44,18 +44,18 @@ class LayerPairs {
   /// @param grid the entire grid; it must outlive this object.
   LayerPairs(const GridShape& grid, const Graphs& graphs, const RunContext& context);
 
-  /// Adds the slab right after the layers that have been added before.
+  /// Adds the slab right after the layers that have already been added.
   /// @param first the first voxel of the slab in the entire grid, including ghosts (modulo 2^64).
   /// @param free receives the cells of three axes that neither graph pairs; may be null.
   void add(const StarGrid& slab, std::uint64_t first, PairSink& pairs,
            FreeCellSink* free = nullptr);
   /// Adds a slab of more than three axes.
   void add(const LayerGrid& slab, std::uint64_t first, PairSink& pairs);
-  /// Joins the layers of `others`, which come right after, or right before, the layers added so
-  /// far. @throws Error (bad_data) if seams differ; nothing has changed then.
+  /// Joins the layers of `others`, which come right before or right after the layers added so far.
   /// @param free as in `add`, for all layers.
+  /// @throws Error (bad_data) if the seams differ; in this case nothing has changed.
   void join(LayerPairs others, bool come_before, PairSink& pairs, FreeCellSink* free = nullptr);
-  /// Passes on the cells that neither graph pairs, once all layers have come.
+  /// Passes on the cells that neither graph pairs. Must be called after all layers have been added.
   void finish(PairSink& pairs) const;
 
   bool wants_vertices() const { return graphs_.vertices; }
@@ -65,15 +65,15 @@ class LayerPairs {
   bool has_begin = false, has_end = false;
   std::optional<SeamForest<false>> vertices;
   std::optional<SeamForest<true>> tops;
-  EdgesInNeither around;  ///< only for two periodic axes
+  EdgesInNeither around;  ///< used only if both axes are periodic
 
  private:
   void check_seams(const LayerPairs& others, bool come_before) const;
   bool is_ring() const { return grid_.axis(grid_.layer_axis()).periodic; }
   template <class Forest>
   void take(std::optional<Forest>& all, Forest next, bool comes_before = false);
-  /// Adds the part of a graph that lies in a slab. @param bridges the bridges of the graph, in its
-  /// order.
+  /// Adds the part of a graph that is in a slab. @param bridges the bridges of the graph, in the
+  /// order of the graph.
   template <class Forest, class Grid, class Graph>
   void take_slab(std::optional<Forest>& all, const Grid& slab, const Graph& graph,
                  const CriticalCells& bridges, std::uint64_t first);

@@ -10,9 +10,10 @@
 
 namespace ph::cubical {
 
-/// An image of any size, or a part of one, as layers along its slowest axis. Layers are counted as
-/// in the stars' grid (GridFrame): in the T-construction, from the other end. Numbers of voxels
-/// have 64 bits here, and 32 bits in a GridFrame of some of the layers.
+/// An image of any size, or a part of an image, as layers along its slowest axis. Layers are
+/// counted as in the stars' grid (GridFrame), which counts from the other end in the
+/// T-construction. Voxel numbers have 64 bits here, but 32 bits in a GridFrame of some of the
+/// layers.
 class LayeredImage {
  public:
   /// True if a GridFrame can hold three layers: a layer and the ghosts on both sides.
@@ -32,7 +33,7 @@ class LayeredImage {
   std::uint64_t layer_size() const { return layer_axis().stride; }
   /// The number of voxels.
   std::uint64_t size() const { return extent() * layer_size(); }
-  /// True if the first layer and the last one are neighbours.
+  /// True if the first layer and the last layer are neighbours.
   bool is_ring() const { return layer_axis().periodic; }
 
   const CubicalImage& all() const { return image_; }

@@ -24,8 +24,8 @@ namespace {
                        : "all other dimensions take less (max_dim 0, or min_dim 2)"));
 }
 
-/// Runs a task that stores the critical cells of loops. If memory runs out, the error message says
-/// that other dimensions take less.
+/// Runs a task that stores the critical cells of loops. If memory runs out, the error message
+/// states that other dimensions take less memory.
 template <class Run>
 void with_loops(const GridShape& shape, Run&& run) {
   try {
@@ -50,7 +50,7 @@ void pair_in_slabs(Slabs& slabs, const K& field, const BarRequest& wanted,
                    {.vertices = loops || wants_vertices(shape, wanted),
                     .tops = loops || wants_top_cells(shape, wanted)},
                    context);
-  // Loops may use half of the remaining memory; they are given up before the slabs and the other
+  // Loops may use half of the remaining memory. They are abandoned before the slabs and the other
   // bars run out of memory. The columns of loops would take more memory than the slabs.
   const std::size_t reserve = context.memory.left() / 2;
   bool too_many_loops = false;

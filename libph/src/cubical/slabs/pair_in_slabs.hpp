@@ -6,11 +6,12 @@
 
 namespace ph::cubical {
 
-/// Does the same as pair_voxels, but processes the grid one slab at a time. Memory: eight bytes per
-/// voxel of a slab, the critical cells of a slab, and 16 to 40 bytes per voxel of a layer. Loops of
-/// three axes also need memory for the critical squares and edges that are paired with no cube and
-/// no voxel, and a temporary file of four bytes per voxel. Precondition: all wanted bars come from
-/// the two graphs, or there are three axes and a GridFrame can hold all voxels.
+/// Does the same as pair_voxels, but processes the grid slab by slab. Memory: eight bytes per voxel
+/// of a slab, the critical cells of a slab, and 16 to 40 bytes per voxel of a layer. With three
+/// axes, loops also need memory for the critical squares that are not paired with a cube and the
+/// critical edges that are not paired with a voxel. They also need a temporary file of four bytes
+/// per voxel. Precondition: all wanted bars come from the two graphs, or there are three axes and a
+/// GridFrame can hold all voxels.
 /// @throws Error (resource) if there is too little memory for loops, after all other bars have been
 /// passed on; Error (io) if there is no room for the file.
 template <Field K>

@@ -22,7 +22,7 @@ namespace ph::cubical {
 /// The root of a tree of arrows: a component that bridges may join with others.
 struct SeamRoot {
   enum class Kind : std::uint32_t {
-    outer,        ///< was always there; it has no cell
+    outer,        ///< the root was always there and has no cell
     critical,     ///< a critical cell
     open_before,  ///< a node of the seam before the layers; its arrows continue beyond the seam
     open_after,   ///< a node of the seam after the layers; its arrows continue beyond the seam
@@ -47,7 +47,7 @@ struct Seam {
   explicit Seam(std::pmr::memory_resource* memory) : roots(memory), values(memory) {}
   bool is_open() const { return !roots.empty(); }
   void close() { *this = Seam(roots.get_allocator().resource()); }
-  /// Frees the values, which are not needed once the seam is being joined.
+  /// Frees the values, which are not needed after the joining of the seam has begun.
   void forget_values() { decltype(values)(values.get_allocator()).swap(values); }
 
   std::pmr::vector<std::uint32_t> roots;  ///< indexed by place; kNone if the node never enters
@@ -55,8 +55,9 @@ struct Seam {
 };
 
 /// The persistent components of one of the two graphs of a grid, as far as some consecutive layers
-/// determine them. Only the parts that adjacent layers may still change are stored: the components
-/// that reach a seam, and a minimum spanning forest of the bridges that join these components.
+/// determine them. Only the parts that adjacent layers may still change are stored. These parts are
+/// the components that reach a seam, and a minimum spanning forest of the bridges that join these
+/// components.
 ///
 /// Joining is associative: the pairs do not depend on how the layers are grouped.
 /// @tparam backwards true for the graph of the top cells.
@@ -117,7 +118,7 @@ class SeamForest {
     for (std::uint32_t& root : after.roots) root = shifted(root);
     identify(same, count, next.roots);
   }
-  /// Joins the last layer to the first one, if the layers are all layers of a periodic axis.
+  /// Joins the last layer to the first layer, if the layers are all layers of a periodic axis.
   /// Precondition: is_before(*this).
   void close_ring() {
     DisjointSets same(roots.size(), &context_.memory);
@@ -131,7 +132,8 @@ class SeamForest {
     after.close();
     identify(same, roots.size(), {});
   }
-  /// Passes on the pairs that other layers can no longer change: all pairs, if no seam is left.
+  /// Passes on the pairs that other layers can no longer change. If no seam is left, these are all
+  /// pairs.
   /// @param on_merge called with (bridge, root that dies); the root is null if both components were
   /// always there.
   /// @param on_cycle called with each bridge whose ends are already connected.
@@ -190,18 +192,18 @@ class SeamForest {
     forget_closed();
   }
 
-  /// Roots that were always there come first, then critical cells in the order of the grid. Open
-  /// roots come before all of these, or after all of them, depending on the kind of graph. Their
-  /// place is chosen so that an open root counts as the youngest among roots of equal value: no
-  /// other component dies because of the number of an open root.
+  /// Roots that were always there come first. Critical cells follow, in the order of the grid. Open
+  /// roots come before all of these or after all of them, depending on the kind of graph. Their
+  /// place is chosen so that an open root counts as the youngest among roots of equal value. No
+  /// other component therefore dies because of the number of an open root.
   std::pmr::vector<SeamRoot> roots;
   /// The number of resolved roots, which are nodes of the seam before the layers and are numbered
-  /// after `roots`. It is 0 unless the layers right before are about to be joined. Joining replaces
-  /// the resolved roots, which therefore need no data.
+  /// after `roots`. The number is 0 unless these layers are about to be joined to the preceding
+  /// layers. Joining replaces the resolved roots, which therefore need no data.
   std::uint32_t resolved = 0;
   std::array<std::uint32_t, 2> outside{};  ///< the roots of the two parts of the outside
   Seam before, after;                      ///< empty where the grid ends
-  std::pmr::vector<SeamBridge> bridges;    ///< ascending; equal values in the order of the grid
+  std::pmr::vector<SeamBridge> bridges;    ///< ascending; equal values are in the order of the grid
 
   bool is_in_order() const { return std::ranges::is_sorted(roots, {}, &SeamForest::age_of); }
 
@@ -221,8 +223,8 @@ class SeamForest {
   }
   static double earlier(double a, double b) { return backwards ? std::max(a, b) : std::min(a, b); }
 
-  // Unites two sets of roots. The representative of a set is, in order of preference, a root that
-  // was always there (the first of them), a critical cell, an open root, or a resolved root.
+  // Unites two sets of roots. The representative of a set is, in order of preference, the first
+  // root that was always there, a critical cell, an open root, or a resolved root.
   template <class Rank>
   static void unite(DisjointSets& same, std::uint32_t a, std::uint32_t b, Rank&& rank) {
     a = same.find(a);
@@ -278,7 +280,7 @@ class SeamForest {
     for_each_in_seams([&](std::uint32_t& root) { root = number[root]; });
     for (std::uint32_t& part : outside) part = number[part];
   }
-  // For each root: the lowest value at which it is connected to a node that other layers share.
+  // For each root, the lowest value at which it is connected to a node that other layers share.
   std::pmr::vector<double> when_reached() const {
     std::pmr::vector<double> reached(roots.size(), kNever, &context_.memory);
     for (const Seam* const seam : {&before, &after})  // mutant: seam-before
@@ -298,7 +300,7 @@ class SeamForest {
       for (std::uint32_t& root : seam->roots)
         if (root != Seam::kNone) use(root);
   }
-  // Keeps the first `count` bridges, which are still needed.
+  // Keeps the first `count` bridges. Only these bridges are still needed.
   void keep(std::size_t count) {
     if (backwards)
       bridges.erase(bridges.begin(), bridges.end() - static_cast<std::ptrdiff_t>(count));

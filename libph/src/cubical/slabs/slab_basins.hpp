@@ -21,7 +21,7 @@ template <class Grid, class Graph>
 class SlabBasins {
  public:
   /// @param first the first voxel of the slab in the entire grid, including ghosts (modulo 2^64).
-  /// @param is_next true if the slab will be joined with the layers right before it.
+  /// @param is_next true if the slab will be joined with the layers directly before it.
   SlabBasins(const Grid& grid, const Graph& graph, std::uint64_t first, bool is_next,
              const RunContext& context)
       : grid_(grid),
@@ -73,7 +73,8 @@ class SlabBasins {
  private:
   using Kind = SeamRoot::Kind;
 
-  // The number of the root of a node's tree. Several threads may call it at the same time.
+  // The number of the root of a node's tree. Several threads may call this function at the same
+  // time.
   std::uint32_t number_of(std::uint32_t node) { return forest_.number_of_root(forest_.find(node)); }
   std::uint32_t add(const SeamRoot& root) {
     roots_.push_back(root);
@@ -150,8 +151,8 @@ class SlabBasins {
   const RunContext& context_;
   ArrowForest<Graph> forest_;
   std::pmr::vector<SeamRoot> roots_;
-  std::uint32_t resolved_ = 0;  // number of resolved roots, which are numbered after the others
-  DisjointSets same_;           // sets of roots
+  std::uint32_t resolved_ = 0;  // the number of resolved roots, which are numbered after the others
+  DisjointSets same_;           // the sets of roots
 };
 
 }  // namespace ph::cubical

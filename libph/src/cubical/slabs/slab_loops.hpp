@@ -25,14 +25,14 @@ class SlabLoops final : public FreeCellSink {
   void add_square(double value, const GridCell& square) override {
     squares_.push_back({value, numbered(square)});
   }
-  /// Computes the bars of loops, once all slabs have been added. @throws Error (resource) if
-  /// columns do not fit.
+  /// Computes the bars of loops, once all slabs have been added. @throws Error (resource) if memory
+  /// is too small for the columns.
   template <Field K>
   void pair(const K& field, PairSink& pairs) {
     const FreeEdges free = free_edges();
     stars_.mark_all_but(free, context_);
     const CriticalCells squares = sorted_squares();
-    // A third of the remaining memory is for stars and voxels, the rest for columns.
+    // A third of the remaining memory is for stars and voxels. The rest is for columns.
     const MemoryClaim pages(context_.memory, context_.memory.left() / 3);
     stars_.let_stay(pages.bytes());
     LoopReduction<K, StoredStars>(stars_, free, squares, field, context_).run(pairs);

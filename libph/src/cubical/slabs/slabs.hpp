@@ -17,17 +17,18 @@
 
 namespace ph::cubical {
 
-/// A grid, or a range of its layers, cut into slabs of equally many layers; the last slab may have
-/// fewer. If the slowest axis of an entire grid is periodic, slabs form a ring: there are at least
-/// two, and the first and the last one are neighbours as well.
+/// A grid, or a range of its layers, cut into slabs with the same number of layers. The last slab
+/// may have fewer layers. If the slowest axis of an entire grid is periodic, the slabs form a ring.
+/// A ring has at least two slabs, and its first slab and its last slab are also neighbours.
 class Slabs {
  public:
-  /// The number of layers of a slab. If the context asks for a number, it is that number;
-  /// otherwise, a slab takes at most a quarter of the memory, whatever the values of its voxels
-  /// are. A GridFrame can always hold the slab.
+  /// The number of layers of a slab. If the context asks for a number, that number is used.
+  /// Otherwise a slab takes at most a quarter of the memory, for any values of its voxels. A
+  /// GridFrame can always hold the slab.
   static std::uint64_t layers_that_fit(const LayeredImage& image, const RunContext& context) {
-    constexpr double bytes = 128;     // per voxel
-    constexpr double most = 1 << 28;  // voxels, because larger slabs are not faster
+    constexpr double bytes = 128;  // per voxel
+    // The limit is a number of voxels; larger slabs are not faster.
+    constexpr double most = 1 << 28;
     const auto size = static_cast<double>(image.layer_size());
     const double layers = context.slab_layers > 0
                               ? context.slab_layers
@@ -36,8 +37,8 @@ class Slabs {
         std::clamp(layers, 1.0, std::max(1.0, std::floor(most / size))));
   }
   /// Precondition: LayeredImage::can_cut, layers > 0.
-  /// @param part the position of the image if it is a part of a larger image; it then has ghosts at
-  /// its ends.
+  /// @param part the position of the image if it is a part of a larger image. The part then has
+  /// ghosts at its ends.
   /// @param first the first voxel of the image in the entire grid, including ghosts (modulo 2^64).
   Slabs(const LayeredImage& image, std::uint64_t layers, const RunContext& context,
         const SlabPlace& part = {}, std::uint64_t first = 0)
@@ -58,7 +59,8 @@ class Slabs {
     return first_ +
            (is_first_of_ring(slab) ? std::uint64_t{0} - 1 : begin(slab)) * image_.layer_size();
   }
-  /// The stars of a slab, with the adjacent layers as ghosts, until the slab is forgotten.
+  /// The stars of a slab, with the adjacent layers as ghosts. They are valid until the slab is
+  /// forgotten.
   StarGrid stars(std::uint64_t slab) { return grid<StarGrid>(slab); }
   /// A slab as another kind of grid. @tparam Grid a SlabFrame that has the same constructor as
   /// StarGrid.
@@ -104,15 +106,15 @@ class Slabs {
   std::uint64_t depth() const {
     return image_.extent() - ghosts_before() - (part_.has_ghost_after() ? 1 : 0);
   }
-  // The layers of a slab, including its ghosts, are the layers from begin(slab) up to end(slab).
+  // The layers of a slab and its ghosts are the layers from begin(slab) up to end(slab).
   std::uint64_t begin(std::uint64_t slab) const {
     return slab == 0 ? 0 : ghosts_before() + slab * layers_ - 1;
   }
   std::uint64_t end(std::uint64_t slab) const {
     return slab + 1 == count() ? image_.extent() : ghosts_before() + (slab + 1) * layers_ + 1;
   }
-  // The voxels of a slab. At the ends of a ring, neighbouring layers are not adjacent in memory;
-  // such a slab is copied.
+  // The voxels of a slab. At the ends of a ring, neighbouring layers are not adjacent in memory. A
+  // slab at the ends is therefore copied.
   CubicalImage voxels(std::uint64_t slab) {
     const bool goes_before = is_first_of_ring(slab), goes_after = is_last_of_ring(slab);
     if (!goes_before && !goes_after) return image_.layers(begin(slab), end(slab));
@@ -141,8 +143,8 @@ class Slabs {
   CubePairMemos cube_pairs_;
   std::pmr::vector<std::byte> around_;
   const RunContext& context_;
-  // Claims memory for the voxels of the current slab if the image is in a file, because these
-  // voxels are in memory while they are used.
+  // Claims memory for the voxels of the current slab if the image is in a file. These voxels take
+  // memory while they are used.
   std::optional<MemoryClaim> read_;
 };
 

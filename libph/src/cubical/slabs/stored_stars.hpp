@@ -26,7 +26,7 @@ class StoredStars : public GridFrame {
     std::memcpy(to, slab.stars().data() + begin, std::size_t{end - begin} * sizeof(*to));
     forget_file_pages(to, std::size_t{end - begin} * sizeof(*to));
   }
-  /// Marks the critical edges that are not free, because they kill a component.
+  /// Marks the critical edges that are not free. These edges kill a component.
   void mark_all_but(const FreeEdges& free, const RunContext& context) {
     Ticker ticker(context, "marks", size());
     constexpr std::uint32_t block = 1 << 20;
@@ -48,13 +48,14 @@ class StoredStars : public GridFrame {
     most_ = resident_.bytes() + bytes;
     all_stay_ = file_.size() + voxel_bytes() <= bytes;
   }
-  /// True if all stars and voxels may stay in memory; reading them in any order is then fast.
+  /// True if all stars and voxels may stay in memory. Reading them in any order is then fast.
   bool all_stay() const { return all_stay_; }
 
   std::uint32_t star(std::uint32_t v) const { return stars()[v]; }
   void expect_star(std::uint32_t v) const { __builtin_prefetch(stars() + v); }
   bool enters(std::uint32_t v) const { return star(v) != kAbsent; }
-  /// Removes pages from memory if there are too many. Threads call it from time to time.
+  /// Removes pages from memory if there are too many pages. Threads call this function from time to
+  /// time.
   void tidy() const {
     if (resident_.bytes() <= most_) return;
     forget_file_pages(file_.data(), file_.size());

@@ -5,7 +5,7 @@ namespace ph::cubical {
 
 CriticalCells critical_cells(const StarGrid& grid, int dim, const RunContext& context) {
   CriticalCells critical(&context.memory);
-  critical.cells.reserve(grid.critical().size());  // most such voxels have one
+  critical.cells.reserve(grid.critical().size());  // most of these voxels have one critical cell
   Ticker ticker(context, {});
   for (const std::uint32_t v : grid.critical()) {
     ticker.work();

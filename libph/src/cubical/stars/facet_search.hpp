@@ -8,8 +8,8 @@
 
 namespace ph::cubical {
 
-/// Finds a cell in the star that contains it, which is the star of its youngest voxel; nothing if
-/// no star contains the cell.
+/// Finds a cell in the star that contains it, which is the star of its youngest voxel. Returns
+/// nothing if no star contains the cell.
 inline std::optional<StarCell> in_its_star(const StarGrid& grid, std::uint32_t voxel,
                                            const Direction& direction) {
   const unsigned corners = 1U << dimension_of(direction);

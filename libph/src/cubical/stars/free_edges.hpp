@@ -10,8 +10,8 @@
 
 namespace ph::cubical {
 
-/// The free edges of a grid with three axes: critical edges that kill no component, and therefore
-/// give birth to loops. They are numbered in the order of (voxel, edge).
+/// The free edges of a grid with three axes. They are the critical edges that kill no component,
+/// and therefore give birth to loops. They are numbered in the order of (voxel, edge).
 class FreeEdges {
  public:
   FreeEdges(const GridFrame& frame, const RunContext& context)
@@ -62,8 +62,8 @@ class FreeEdges {
  private:
   static constexpr std::uint32_t kWord = 64;
   struct AtVoxel {
-    std::uint32_t first;  // number of the voxel's first edge
-    std::uint8_t edges;   // edges as bits
+    std::uint32_t first;  // the number of the voxel's first edge
+    std::uint8_t edges;   // the edges, as bits
   };
   std::size_t place(std::uint32_t voxel) const {
     const std::uint64_t before = (std::uint64_t{1} << (voxel % kWord)) - 1;
@@ -71,11 +71,11 @@ class FreeEdges {
            static_cast<std::size_t>(std::popcount(has_some_[voxel / kWord] & before));
   }
 
-  // For each voxel: a bit that is set if the voxel has free edges.
+  // For each voxel, a bit that is set if the voxel has free edges.
   std::pmr::vector<std::uint64_t> has_some_;
-  // For each word of `has_some_`: number of voxels with free edges before it.
+  // For each word of `has_some_`, the number of voxels with free edges before the word.
   std::pmr::vector<std::uint32_t> voxels_before_;
-  std::pmr::vector<AtVoxel> at_;  // for each voxel with free edges
+  std::pmr::vector<AtVoxel> at_;  // one entry for each voxel with free edges
   std::uint32_t count_ = 0;
 };
 

@@ -10,13 +10,14 @@
 namespace ph::cubical {
 namespace {
 
-constexpr std::uint32_t kBlock = 4096;     // voxels of a row that are processed together
-constexpr std::uint32_t kPiece = 1 << 16;  // approximate number of voxels per thread at a time
+constexpr std::uint32_t kBlock = 4096;  // the number of voxels of a row that are processed together
+// The approximate number of voxels that a thread takes at a time.
+constexpr std::uint32_t kPiece = 1 << 16;
 
 // Compares the age of u with the age of v. Precondition: v is not absent. There are two versions,
 // without and with equality, because the order of the grid decides between equal voxels. An absent
-// voxel has the value NaN. It is younger than all others in the V-construction, and older in the
-// T-construction, where a voxel that never enters was always there.
+// voxel has the value NaN. It is younger than all others in the V-construction. It is older than
+// all others in the T-construction, where a voxel that never enters was always there.
 template <bool descending, bool absent_is_older>
 struct VoxelAges {
   template <class T>
@@ -88,7 +89,8 @@ std::uint32_t StarGrid::find_one(const T* voxels, std::uint32_t v) const {
 }
 
 // Finds the stars of a part of a row. Inside the row, neighbours are at fixed distances in memory.
-// Each neighbour therefore takes one comparison without further tests, which compilers vectorise.
+// Each neighbour therefore needs only one comparison and no further tests. Compilers vectorise
+// these comparisons.
 template <class Ages, class T>
 void StarGrid::find_block(const T* voxels, const Block& block, std::uint32_t* stars) const {
   const Axis &deep = axes_[0], &high = axes_[1];
@@ -120,7 +122,7 @@ void StarGrid::find_block(const T* voxels, const Block& block, std::uint32_t* st
         const bool leaves = by > 0 ? x + 1 == axis.extent : x == 0;
         outside = outside || (leaves && !axis.periodic);
         const std::uint32_t to = by > 0 ? (leaves ? 0 : x + 1) : (leaves ? axis.extent : x) - 1;
-        row += (to - x) * axis.stride;  // modulo 2^32 if it decreases
+        row += (to - x) * axis.stride;  // modulo 2^32 if the row decreases
       };
       move(deep, block.z, dz);
       move(high, block.y, dy);
@@ -172,8 +174,8 @@ std::size_t StarGrid::close_stars(std::uint32_t begin, std::uint32_t end, std::u
       if (stars_[v] == kAbsent) continue;
       const auto [star, critical] = tables_of(v).closed(stars_[v]);
       stars_[v] = star;
-      // Branchless, because the branch would be unpredictable: always writes v, but advances count
-      // only if critical is not 0.
+      // This avoids a branch, which would be unpredictable. It always writes v, but advances
+      // `count` only if `critical` is not 0.
       list[count] = v;
       count += (critical | (0U - critical)) >> 31;
     }
@@ -190,7 +192,7 @@ void StarGrid::find_stars(const T* voxels) {
   const std::uint32_t blocks_a_row = (n - 1) / kBlock + 1;
   const std::size_t blocks = std::size_t{size_ / n} * blocks_a_row;
   const std::size_t blocks_a_piece = std::max<std::size_t>(1, kPiece / std::min(n, kBlock));
-  // A voxel enters if value <= limit, with the sign of superlevel sets.
+  // A voxel enters if value <= limit, where values are negated for superlevel sets.
   const bool superlevel = grid_.superlevel;
   const double limit = grid_.limit;
   const bool some_may_not = std::is_floating_point_v<T> || limit < std::numeric_limits<int>::max();

@@ -14,7 +14,7 @@ namespace ph::cubical {
 /// The lower stars of a grid, or of some of its layers.
 class StarGrid : public SlabFrame {
  public:
-  /// True for at most three axes, and as many voxels as a frame can hold.
+  /// True if the image has at most three axes and no more voxels than a frame can hold.
   static bool can_hold(const CubicalImage& grid) {
     return GridShape::count_axes(grid) <= 3 && GridFrame::can_hold(grid);
   }
@@ -28,10 +28,11 @@ class StarGrid : public SlabFrame {
   /// Does nothing, because all stars are in memory. See StoredStars::tidy.
   static void tidy() {}
   bool enters(std::uint32_t v) const { return stars_[v] != kAbsent; }
-  /// Marks the edges of a star that kill a component. @param bits their marks. Only for three axes.
+  /// Marks the edges of a star that kill a component. Only for three axes. @param bits the marks of
+  /// these edges.
   void mark(std::uint32_t v, std::uint32_t bits) { stars_[v] |= bits; }
   bool all_enter() const { return all_enter_; }
-  /// The voxels whose stars have a critical cell, ascending.
+  /// The voxels whose stars have a critical cell, in ascending order.
   std::span<const std::uint32_t> critical() const { return critical_; }
   /// The pairs of the cubes in the star of a voxel. Only for three axes.
   CubePairs pair_cubes(std::uint32_t v) const {

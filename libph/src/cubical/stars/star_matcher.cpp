@@ -65,7 +65,7 @@ void StarMatcher::find_steps(const CellGrid::Coordinates& at) {
     const std::uint32_t x = at[static_cast<std::size_t>(k)];
     border = border << 2U | (x == 0 ? 1U : 0U) | (x + 1 == grid_.axis(k).extent ? 2U : 0U);
   }
-  if (border == border_) return;  // which is the usual case along a row
+  if (border == border_) return;  // this is the usual case along a row
   border_ = border;
   step_count_ = 0;
   const bool is_t = !grid_.voxels_are_vertices();
@@ -151,7 +151,7 @@ void StarMatcher::pair_rest() {
   std::ranges::sort(rest_, [&](Place a, Place b) {
     return level(a) != level(b) ? level(a) < level(b) : is_younger(b, a);
   });
-  // The level of the last undecided cell; later pairs in this level would depend on that cell.
+  // The level of the last undecided cell. Later pairs in this level would depend on that cell.
   int undecided = -1;
   for (const Place i : rest_)
     if (level(i) != undecided && !pair_along_path(i)) undecided = level(i);
@@ -180,7 +180,7 @@ void StarMatcher::count_paths(Place cell) {
       if (c.partner != kNone) stack_.push_back(c.partner);
     });
   }
-  // A cell passes its count on only after all cells that lead to it have passed on theirs.
+  // A cell passes on its count only after all cells that lead to it have passed on their counts.
   cells_[cell].paths = 1;
   stack_.assign(1, cell);
   while (!stack_.empty()) {

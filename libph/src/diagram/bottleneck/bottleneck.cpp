@@ -12,7 +12,7 @@ namespace {
 
 using diagram::DiagramParts;
 
-/// The bottleneck distance of the infinite bars alone.
+/// The bottleneck distance between the infinite bars alone.
 double distance_of_infinite(const DiagramParts& a, const DiagramParts& b) {
   if (!diagram::have_as_many_infinite(a, b)) return kInfinity;
   double result = 0;
@@ -28,15 +28,15 @@ class TwoSides {
   TwoSides(const DiagramParts& a, const DiagramParts& b, const RunContext& context)
       : there_(a.finite, b.finite, context), back_(b.finite, a.finite, context) {}
 
-  /// Computes bounds of the distance. @param least a lower bound that is already known.
+  /// Computes bounds for the distance. @param least a lower bound that is already known.
   DistanceBounds bounds(double least, const DistanceLimits& limits) {
     const double lower = back_.lower_bound(there_.lower_bound(least));
     DistanceBounds bounds = there_.narrow({lower, lower}, limits);
     const DistanceBounds second = back_.narrow(bounds, limits);
     return {std::max(bounds.value, second.value), second.lower};
   }
-  /// For each bar of the first diagram: its partner in the second, or kNone. @param distance the
-  /// value that `bounds` has returned.
+  /// For each bar of the first diagram, its partner in the second diagram, or kNone. @param
+  /// distance the value that `bounds` has returned.
   std::vector<std::uint32_t> partners(double distance) {
     there_.match_at(distance);
     back_.match_at(distance);
@@ -49,8 +49,8 @@ class TwoSides {
   diagram::OneSidedMatching there_, back_;
 };
 
-// Bytes per bar, without the trees and the sets of their remaining points, which count their own
-// memory.
+// The number of bytes per bar. It does not include the trees and the sets of their remaining
+// points, which count their own memory.
 constexpr std::size_t kBytesABar = 160;
 
 }  // namespace

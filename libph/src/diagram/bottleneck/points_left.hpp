@@ -9,9 +9,9 @@
 
 namespace ph::diagram {
 
-/// The remaining points of a tree, in the maximum metric: one byte per node. The byte of a leaf has
-/// one bit per point; the byte of an inner node is zero if and only if no point is left. Distances
-/// are exactly those that `distance` computes.
+/// The remaining points of a tree, in the maximum metric. Each node has one byte. The byte of a
+/// leaf has one bit per point. The byte of an inner node is zero if and only if no point is left.
+/// Distances are exactly the distances that `distance` computes.
 class PointsLeft {
  public:
   using Position = PointTree::Position;
@@ -20,8 +20,8 @@ class PointsLeft {
   PointsLeft(const PointTree& tree, const RunContext& context);
 
   void restore_all() { left_ = all_; }
-  /// Does the same as restore_all followed by `remove` for each point that `is_left` rejects, but
-  /// in O(n).
+  /// Does the same as calling `restore_all` and then `remove` for each point that `is_left`
+  /// rejects, but in O(n).
   template <class IsLeft>
   void restore(IsLeft&& is_left) {
     for (Node node = tree_.node_count() - 1; node > 0; --node) {
@@ -46,7 +46,7 @@ class PointsLeft {
   Position take(const Point& p, double radius, Position near);
 
   /// Removes all points at a distance of at most `radius` from p, and calls `visit(position)` for
-  /// each.
+  /// each of them.
   template <class Visit>
   void take_all(const Point& p, double radius, Visit&& visit) {
     if (left_[1] != 0 && tree_.distance_to_box(p, 1) <= radius) take_all_below(1, p, radius, visit);
@@ -56,7 +56,7 @@ class PointsLeft {
     double distance;
     Position position = kNone;
   };
-  /// The nearest remaining point; if there is none closer than `limit`, only `limit` is returned.
+  /// The nearest remaining point. If no point is closer than `limit`, only `limit` is returned.
   Nearest nearest(const Point& p, double limit) const {
     Nearest best{limit};
     if (left_[1] != 0 && tree_.distance_to_box(p, 1) < limit) nearest(1, p, best);
@@ -66,8 +66,8 @@ class PointsLeft {
  private:
   using Node = PointTree::Node;
 
-  /// To be called when the byte of a node may have become zero: updates the node's ancestors, up to
-  /// the first one that still has points.
+  /// Updates the ancestors of a node, up to the first ancestor that still has points. Must be
+  /// called when the byte of the node may have become zero.
   void empty_above(Node node) {
     while (node > 1 && left_[node] == 0) {
       node /= 2;

@@ -12,8 +12,8 @@
 
 namespace ph::diagram {
 
-/// A matching between two sets of points, and prices that certify its quality. A point may also
-/// stay alone, at the cost of moving it to the diagonal.
+/// A matching between two sets of points, and prices that certify the quality of the matching. A
+/// point may also stay alone. The cost is then the cost of moving the point to the diagonal.
 ///
 /// The prices u of the first set and w of the second set are feasible: u_a + w_b <= cost(a, b) for
 /// all pairs, u_a <= cost(a alone), and w_b <= cost(b alone). Every matching therefore costs at
@@ -28,9 +28,9 @@ class Assignment {
   struct Side {
     PointTree tree;
     WeightedTree prices;
-    std::vector<double> alone;      // cost of each point without a partner
-    std::vector<Position> partner;  // position in the other tree, or kNone
-    std::vector<Position> near;     // position in the other tree where a search begins
+    std::vector<double> alone;      // the cost of each point without a partner
+    std::vector<Position> partner;  // the position in the other tree, or kNone
+    std::vector<Position> near;     // the position in the other tree where a search begins
 
     Side(std::span<const Point> points, std::size_t others, const GroundCost& cost, double most,
          const RunContext& context);
@@ -67,7 +67,8 @@ class Assignment {
     sides_[1 - k].partner[y] = kNone;
     y = kNone;
   }
-  /// Raises the price of point x of side k to the highest feasible value.
+  /// Raises the price of point x of side k to the highest possible value. The prices remain
+  /// feasible.
   void raise_price(std::size_t k, Position x);
 
   /// The matching costs `cost`, and no matching costs less than `lower`, with an allowance for
@@ -76,7 +77,7 @@ class Assignment {
     double cost, lower;
   };
   Costs costs() const;
-  /// For each point of the first set, in the order of the input: the place of its partner in the
+  /// For each point of the first set, in the order of the input, the place of its partner in the
   /// second set, or kNone.
   std::vector<std::uint32_t> partners() const;
 
@@ -85,9 +86,9 @@ class Assignment {
   std::array<Side, 2> sides_;
 };
 
-/// Finds the best matching and its prices by shortest augmenting paths, one per point of the first
-/// set (Jonker, Volgenant 1987). It is slower than an auction, but has no increments: the number of
-/// its steps is bounded for any costs.
+/// Finds the best matching and its prices by shortest augmenting paths (Jonker, Volgenant 1987),
+/// with one path for each point of the first set. It is slower than an auction, but has no
+/// increments, so the number of its steps is bounded for any costs.
 /// @param assignment may be in any state.
 void assign_by_shortest_paths(Assignment& assignment, const RunContext& context);
 

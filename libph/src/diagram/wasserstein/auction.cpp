@@ -7,11 +7,10 @@
 namespace ph::diagram {
 namespace {
 
-/// Ratio of one increment to the next.
+/// The ratio of one increment to the next.
 constexpr double kStep = 6;
 
-/// In the first round, the increment is raised each time that this many bids per bar have been
-/// made.
+/// In the first round, the increment is raised whenever this many bids per bar have been made.
 constexpr std::uint64_t kBidsAStep = 3;
 
 /// An upper bound for the rounding error of cost - price. A bid that is lower by this amount is
@@ -22,7 +21,7 @@ double rounding_of(double cost, double price) { return 1e-15 * (cost + std::abs(
 
 Auction::Auction(Assignment& assignment, const RunContext& context)
     : assignment_(assignment), ticker_(context, "Wasserstein distance") {
-  // The first prices are feasible: they start at zero and are raised on one side after the other.
+  // The first prices are feasible. They start at zero and are raised on one side after the other.
   Assignment::Side& mine = assignment_.side(0);
   for (Position x = 0; x < mine.tree.size(); ++x) mine.prices.set(x, 0);
   for (const std::size_t k : {1U, 0U})

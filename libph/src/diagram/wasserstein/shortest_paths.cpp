@@ -14,7 +14,7 @@ namespace {
 constexpr double kGone = -std::numeric_limits<double>::infinity();
 
 /// Grows trees of shortest paths (Dijkstra), one after another. The length of a step is its reduced
-/// cost: the cost minus the prices.
+/// cost, which is the cost minus the prices.
 class ShortestPaths {
  public:
   using Position = PointTree::Position;
@@ -29,7 +29,7 @@ class ShortestPaths {
     for (Position y = 0; y < other_.tree.size(); ++y) other_.prices.set(y, other_.alone[y]);
   }
 
-  /// Extends the matching to x: either x gets a partner, or x or another point of its set stays
+  /// Extends the matching to x. Either x gets a partner, or x or another point of its set stays
   /// alone.
   void add(Position x) {
     assignment_.raise_price(0, x);
@@ -64,8 +64,8 @@ class ShortestPaths {
   /// kNone.
   struct Node {
     Position x, y;
-    double length;  // length of the path from the root
-    double price;   // price of y before y was reached
+    double length;  // the length of the path from the root
+    double price;   // the price of y before y was reached
   };
   /// A step from a node to the point `to` of the other set. If `to` is kNone, the step leaves the
   /// node's own point without a partner.
@@ -112,7 +112,7 @@ class ShortestPaths {
   Assignment& assignment_;
   Assignment::Side &mine_, &other_;
   std::vector<Node> nodes_;
-  std::vector<std::size_t> reached_from_;  // node from which each position was reached
+  std::vector<std::size_t> reached_from_;  // the node from which each position was reached
   std::priority_queue<Step, std::vector<Step>, std::greater<>> steps_;
   Ticker ticker_;
 };

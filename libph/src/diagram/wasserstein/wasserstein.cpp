@@ -29,15 +29,16 @@ constexpr double kRounding = 1e-13;
 // repeated.
 constexpr double kUnsure = 1e-9;
 
-// The search is repeated in a smaller unit of length only if this divides the power of the unit by
-// at least this factor.
+// The search is repeated in a smaller unit of length only if this change divides the power of the
+// unit by at least this factor.
 constexpr double kFiner = 16;
 
 // The largest number of bids per bar in a round. Auctions without bidding wars over equal bars need
-// about 2 to 20.
+// about 2 to 20 bids per bar.
 constexpr std::uint64_t kMostBids = 400;
 
-// Bytes per bar, without the trees and their weights, which count their own memory.
+// The number of bytes per bar. It does not include the trees and their weights, which count their
+// own memory.
 constexpr std::size_t kBytesAPricedBar = 200;
 
 void check(const WassersteinOptions& options, std::string_view function) {
@@ -52,12 +53,12 @@ void check(const WassersteinOptions& options, std::string_view function) {
   diagram::check(options.limits, function);
 }
 
-/// (Σ x^order)^(1/order), for numbers of any size.
+/// Computes (Σ x^order)^(1/order) for numbers of any size.
 double norm_of(std::span<const double> lengths, double order) {
   const double largest = lengths.empty() ? 0 : std::ranges::max(lengths);
   if (largest == 0 || largest == kInfinity) return largest;
-  // Division by a power of two loses no digits. For orders above 2, dividing by the largest number
-  // instead keeps all bases of powers at most 1.
+  // Division by a power of two loses no digits. For orders above 2, the code divides by the largest
+  // number instead, so that the base of each power is at most 1.
   const double unit = order <= 2 ? std::ldexp(1, std::ilogb(largest)) : largest;
   double sum = 0;
   for (const double length : lengths)
@@ -66,7 +67,7 @@ double norm_of(std::span<const double> lengths, double order) {
 }
 
 /// A unit of length in which powers of lengths up to `largest` never overflow. Numbers are scaled
-/// by a power of two. Powers of order 1 and 2 are exact where possible; other powers are taken of
+/// by a power of two. Powers of order 1 and 2 are exact where possible. Other powers are powers of
 /// numbers up to 1.
 struct Unit {
   double largest;
@@ -110,7 +111,8 @@ class Comparison {
     const auto bounds = [&](const Assignment::Costs& costs) {
       return DistanceBounds{unit.root(rays + costs.cost), unit.root(rays + costs.lower)};
     };
-    if (first_.finite.empty() || second_.finite.empty()) {  // all bars go to the diagonal
+    // All bars are matched with the diagonal.
+    if (first_.finite.empty() || second_.finite.empty()) {
       Assignment::Costs costs{0, 0};
       for (const DiagramParts* parts : {&first_, &second_})
         for (const Point& p : unit.in_unit(*parts)) costs.cost += unit.cost.alone(p);
@@ -173,9 +175,9 @@ class Comparison {
   }
 
   /// Prices are rounded relative to the cost of the most expensive bar. If a matching costs far
-  /// less than that bar, such prices do not prove that it is optimal. The search is therefore
-  /// repeated in a unit of about the size of the distance found, and among matchings that cost no
-  /// more than about this one.
+  /// less than that bar, these prices do not prove that the matching is optimal. The search is
+  /// therefore repeated in a unit of about the size of the distance found, and only among matchings
+  /// that cost about as much as this matching or less.
   DistanceBounds refined(double unit_length, DistanceBounds found) {
     const double rays = norm_of(rays_, options_.order);
     const auto with_rays = [&](double length) {
@@ -224,7 +226,7 @@ class Comparison {
     return norm_of(lengths, options_.order);
   }
 
-  /// The smallest usable unit: in smaller ones, coordinates would overflow.
+  /// The smallest usable unit. In smaller units, coordinates would overflow.
   double smallest_unit() const {
     double most = 0;
     for (const DiagramParts* parts : {&first_, &second_})
@@ -247,8 +249,8 @@ class Comparison {
   const RunContext& context_;
   const MemoryClaim claim_;
   const DiagramParts first_, second_;
-  std::vector<double> rays_;             // distances between the ends of infinite bars
-  std::vector<std::uint32_t> partners_;  // partner of each bar of first_.finite
+  std::vector<double> rays_;             // the distances between the ends of infinite bars
+  std::vector<std::uint32_t> partners_;  // the partner of each bar of first_.finite
 };
 
 }  // namespace

@@ -8,8 +8,8 @@
 
 namespace ph::diagram {
 
-/// The points of a tree with weights that may change. Finds the points with the least difference of
-/// cost and weight. Each node stores the largest weight of its points.
+/// The points of a tree with weights that may change. The class finds the points with the least
+/// difference of cost and weight. Each node stores the largest weight of its points.
 class WeightedTree {
  public:
   using Position = PointTree::Position;
@@ -21,12 +21,13 @@ class WeightedTree {
   double weight(Position q) const { return weights_[q]; }
   void set(Position q, double weight);
 
-  /// The two smallest values of cost minus weight; a value is infinite if there is no point for it.
+  /// The two smallest values of cost minus weight. A value is infinite if there is no point for it.
   struct Best {
     double first, second;
-    Position position = kNone;  // position of the point with the smallest value
+    Position position = kNone;  // the position of the point with the smallest value
   };
-  /// @param near the position where the search starts: any will do, but one near p is faster.
+  /// @param near the position where the search starts. Any position is valid, but a position near p
+  /// is faster.
   Best best_two(const Point& p, Position near) const;
 
  private:
@@ -39,8 +40,8 @@ class WeightedTree {
 
   const PointTree& tree_;
   const GroundCost& cost_;
-  std::pmr::vector<double> weights_;  // weight of each position
-  std::pmr::vector<double> largest_;  // largest weight in each node
+  std::pmr::vector<double> weights_;  // the weight of each position
+  std::pmr::vector<double> largest_;  // the largest weight in each node
 };
 
 }  // namespace ph::diagram

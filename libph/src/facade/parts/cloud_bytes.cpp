@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Writes a part of a cloud as bytes and reads it: the data of the cloud, the numbers of the parts,
-// and their points, edges and claims. Checks that no number that is read points outside a list.
+// Writes a part of a cloud as bytes, and reads such bytes. The bytes contain the data of the cloud,
+// the numbers of the parts, and their points, edges and claims. When bytes are read, each number is
+// checked so that it does not point outside a list.
 #include <cmath>
 #include <string_view>
 #include <utility>

@@ -19,9 +19,9 @@ namespace ph {
 namespace {
 
 /// The number of points to draw, unless the user chooses it. If more points are drawn, each part
-/// takes longer. If fewer points are drawn, more points of the cloud count as near a block: for a
-/// cloud that fills three dimensions, a share of (blocks / sample)^1/3. All parts compute the same
-/// number and therefore draw the same points.
+/// takes longer. If fewer points are drawn, more points of the cloud count as near a block. For a
+/// cloud that fills three dimensions, this share is (blocks / sample)^1/3. All parts compute the
+/// same number and therefore draw the same points.
 Index points_to_draw(Index points, double blocks) {
   constexpr double least_a_block = 64, most = 1 << 28;
   const double n = static_cast<double>(points);
@@ -93,8 +93,9 @@ CloudPartForecast CloudPart::forecast(PointsView points, int parts,
   const WholeCloud whole = whole_cloud(points, parts, options);
   const auto n = static_cast<double>(whole.points), of_part = n / parts;
   const double of_block = of_part / whole.blocks;
-  // Measured on 10⁶ to 10⁸ points, uniform and in clusters: see bench/parts/cloud_parts.cpp. More
-  // points lie near a block than in it if the block is small or at the border of a cluster.
+  // This was measured on 10⁶ to 10⁸ points, uniform and in clusters (see
+  // bench/parts/cloud_parts.cpp). More points are near a block than in it if the block is small or
+  // at the border of a cluster.
   constexpr double small = 32 << 20;
   CloudPartForecast forecast;
   forecast.memory = {60 * of_block + 16 * of_part, small + 700 * of_block + 24 * of_part};
@@ -168,8 +169,8 @@ Rips CloudPart::rips(const RunContext& context) const& {
   return CloudPart(std::move(copy)).rips(context);
 }
 
-// A part leaves out an edge if other edges join its ends. If the part has only claimed that these
-// edges are in the forest, the entire forest must fulfil the claim.
+// A part leaves out an edge if other edges join the ends of this edge. If the part has only claimed
+// that these other edges are in the forest, the entire forest must fulfil the claim.
 void CloudPart::State::check_joined() const {
   const bool is_spanning =
       whole.limit < kInfinity ||
@@ -180,7 +181,7 @@ void CloudPart::State::check_joined() const {
                 "expected parts of one cloud, made while its points did not change");
 }
 
-// Each edge of the forest kills one component; all components are born at 0.
+// Each edge of the forest kills one component. All components are born at 0.
 Barcode CloudPart::barcode(const RunContext& context) const {
   state_->check_joined();
   const FlagEdges& edges = state_->forest.edges;

@@ -11,7 +11,7 @@ namespace ph {
 /// Data that all parts of a cloud share.
 struct WholeCloud {
   Index points, axes, sample;
-  int parts, blocks;  // number of parts, and number of blocks in each part
+  int parts, blocks;  // the number of parts, and the number of blocks in each part
   double limit;       // the threshold; infinite if there is none
   std::uint64_t fingerprint;
 
@@ -26,8 +26,8 @@ struct CloudPart::State {
 
   WholeCloud whole;
   const RunContext& context;
-  std::vector<int> present;  // numbers of the parts, ascending
-  Index size = 0;            // number of points of the parts that are present
+  std::vector<int> present;  // the numbers of the parts, ascending
+  Index size = 0;            // the number of points of the parts that are present
   NumberedForest forest;
 };
 

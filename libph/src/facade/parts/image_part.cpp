@@ -65,8 +65,8 @@ int lowest_of_top_cells(const GridShape& shape) {
   return shape.top_dim() - 1 + static_cast<int>(shape.loop_count());
 }
 
-/// The voxels of some layers and of one more layer on either side. They are copied only if a
-/// periodic axis makes the outer layers wrap around.
+/// The voxels of some layers and of one more layer on each side. They are copied only if a periodic
+/// axis makes the outer layers wrap around.
 Voxels voxels_of(const Image& image, const PartLayout::Layers& layers,
                  const GridShape::Axis& axis) {
   const auto owner = std::make_shared<const Voxels>(image.values);
@@ -225,8 +225,8 @@ void ImagePart::join(ImagePart next, const RunContext& context) {
                 fmt::format("parts of an image: found part {} after part {}, expected part {}",
                             next.first() + 1, last() + 1, last() + 2));
   context.poll();
-  // In the T construction, parts are ordered the other way round: the next part comes before this
-  // one.
+  // In the T-construction, parts are ordered the other way round. The next part comes before this
+  // part.
   const bool come_before = state_->shape.is_t_construction();  // mutant: part-turned
   const cubical::BarSink sink = state_->sink(state_->bars);
   cubical::PairSink pairs(state_->shape, state_->whole.cells, sink);

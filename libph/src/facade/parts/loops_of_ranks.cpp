@@ -11,8 +11,8 @@ namespace {
 
 using Bytes = std::vector<std::byte>;
 
-/// The message from one rank to another in a round: first a byte that says if the sender has sent
-/// anything to any rank, then the message for that rank, which may be empty.
+/// The message from one rank to another in a round. Its first byte says whether the sender has sent
+/// anything to any rank. The message for the other rank follows, and may be empty.
 Bytes letter(bool is_busy, const Bytes& message) {
   Bytes bytes{std::byte{is_busy}};
   bytes.insert(bytes.end(), message.begin(), message.end());
@@ -38,8 +38,9 @@ bool exchange(ImageLoops& loops, int parts, Post& post) {
     is_any_busy = is_any_busy || bytes[0] != std::byte{0};
     if (bytes.size() > 1) loops.receive(std::span(bytes).subspan(1));
   };
-  // A rank that sends may have to wait until the other rank receives. Of two ranks, the lower one
-  // therefore sends first, and each rank goes through the others in ascending order.
+  // A rank that sends may have to wait until the other rank receives. The lower of two ranks
+  // therefore sends first, and each rank exchanges messages with the other ranks in ascending
+  // order.
   for (int other = 0; other < parts; ++other) {
     if (other == rank) continue;
     if (rank < other) send(other);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Writes a part of an image as bytes and reads it: the data of the image, the numbers of the parts,
-// bars, and forests with their seams. Checks that no number that is read points outside a list.
+// Writes a part of an image as bytes, and reads such bytes. The bytes contain the data of the
+// image, the numbers of the parts, bars, and forests with their seams. When bytes are read, each
+// number is checked so that it does not point outside a list.
 #include <algorithm>
 #include <cstddef>
 #include <string_view>
@@ -147,7 +148,7 @@ SeamForest<backwards> get_forest(ByteReader& from, int top_dim, const RunContext
     const auto kind = from.get<std::uint32_t>("root");
     if (kind > static_cast<std::uint32_t>(SeamRoot::Kind::open_after)) from.refuse("root");
     root.kind = static_cast<SeamRoot::Kind>(kind);
-    // Roots of other kinds have no cell; zeros are stored for them.
+    // Roots of other kinds have no cell. Zeros are stored for them.
     root.cell = checked(from, name, top_dim, root.kind == SeamRoot::Kind::critical ? root_dim : 0);
   }
   if (!forest.is_in_order()) from.refuse("order of roots");

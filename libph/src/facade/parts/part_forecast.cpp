@@ -17,8 +17,8 @@ using cubical::checked_whole;
 using cubical::GridShape;
 using cubical::WholeImage;
 
-/// Estimates the share of minima in each layer, that is, of voxels that come before all their
-/// neighbours. It reads only some rows of some layers.
+/// Estimates the share of minima in each layer. A minimum is a voxel that comes before all its
+/// neighbours. The class reads only some rows of some layers.
 template <class T>
 class LayerSample {
  public:
@@ -30,7 +30,8 @@ class LayerSample {
         width_(shape.axis(shape.axis_count() - 1).extent) {}
 
   std::vector<double> minima() const {
-    constexpr std::uint64_t few = 64;  // one layer in this many is read
+    // One in this many layers is read.
+    constexpr std::uint64_t few = 64;
     const std::uint64_t step = std::clamp<std::uint64_t>(layers_ / few, 1, 16);
     std::vector<double> shares(layers_);
     for (std::uint64_t z = 0; z < layers_; z += step) {
@@ -43,11 +44,11 @@ class LayerSample {
 
  private:
   double minima_of(std::uint64_t layer) const {
-    constexpr std::uint64_t many = 1 << 12;  // voxels
+    constexpr std::uint64_t many = 1 << 12;  // the number of voxels
     const std::uint64_t rows = layer_size_ / width_;
     const std::uint64_t step = std::clamp<std::uint64_t>(layer_size_ / many, 1, 8);
     std::uint64_t looked_at = 0, found = 0;
-    // Reads at least one row of a layer with few rows.
+    // At least one row is read in a layer with few rows.
     // mutant: forecast-few-rows
     for (std::uint64_t y = std::min(step / 2, rows - 1); y < rows; y += step)
       for (std::uint64_t x = 0; x < width_; ++x, ++looked_at)
@@ -72,16 +73,16 @@ class LayerSample {
   std::uint64_t layers_, layer_size_, width_;
 };
 
-/// The time per voxel, relative to the time of a voxel that is not near a minimum. Measured on
-/// noise with three axes, where one voxel in seven is a minimum.
+/// The time per voxel, relative to the time of a voxel that is not near a minimum. It was measured
+/// on noise with three axes, where one voxel in seven is a minimum.
 double cost(double minima, bool loops) {
   constexpr double of_components = 20, of_loops = 300;
   return 1 + (loops ? of_loops : of_components) * minima;
 }
 
-/// An upper bound for the bytes that the columns of loops send across a border between parts, per
-/// minimum in the adjacent layers. It holds for noise, where columns grow with the volume and often
-/// cross the border. Measured on 256³ and 512³ voxels.
+/// An upper bound for the bytes per minimum in the adjacent layers that the columns of loops send
+/// across a border between parts. It was measured on 256³ and 512³ voxels of noise, where columns
+/// grow with the volume and often cross the border.
 double bytes_across(double layer_size) {
   constexpr double of_small = 20000, small = 256, power = 3.5;
   return of_small * std::pow(std::max(1.0, std::sqrt(layer_size) / small), power);
@@ -125,9 +126,9 @@ ImagePartForecast ImagePart::forecast(const Image& image, int parts,
   const bool vertices = whole.loops || cubical::wants_vertices(shape, whole.wanted());
   const bool tops = whole.loops || cubical::wants_top_cells(shape, whole.wanted());
   const auto layer_size = static_cast<double>(layout.layer_size());
-  // Bytes, measured on noise, waves and blurred noise of 128³ to 512³ voxels. A seam stores values,
-  // roots, and components that may still be joined there. Each minimum gives one bar. The other
-  // graph and the loops give, on average, a fixed number of bars per minimum.
+  // These numbers of bytes were measured on noise, waves and blurred noise of 128³ to 512³ voxels.
+  // A seam stores values, roots, and components that may still be joined there. Each minimum gives
+  // one bar. The other graph and the loops give, on average, a fixed number of bars per minimum.
   const double seam = layer_size * ((vertices ? 48 : 0) + (tops ? 25 : 0));
   const double bar = whole.cells ? 72 : 24;
   const double bars = bar * ((vertices ? 1 : 0) + (tops ? 0.3 : 0)),

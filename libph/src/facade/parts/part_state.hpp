@@ -31,8 +31,9 @@ struct WholeImage {
   double limit;
   int parts, min_dim, max_dim;
   bool cells;
-  bool loops;                            ///< true if bars are wanted that neither graph gives
-  std::vector<Index> first_layers = {};  ///< of each part; empty if parts have equal size
+  bool loops;  ///< true if bars are wanted that neither graph gives
+  /// The first layers of the parts; empty if parts have equal size.
+  std::vector<Index> first_layers = {};
 
   friend bool operator==(const WholeImage&, const WholeImage&) = default;
   /// The image without its voxels.
@@ -85,7 +86,7 @@ struct WholeImage {
            static_cast<std::uint64_t>(first_layers.back()) < shape.axis(shape.layer_axis()).extent;
   }
   PartLayout layout(const GridShape& shape) const { return {shape, parts, first_layers}; }
-  /// A hash of these data. If images or options differ, their hashes differ with high probability.
+  /// A hash of these data. If images or options differ, their hashes almost certainly differ.
   std::uint64_t hash() const;
 };
 
@@ -101,7 +102,7 @@ struct OwnLayers {
         stars(voxels.cubical_image(), layout, part, context),
         free(&context.memory) {}
 
-  Cubical voxels;  ///< voxels of the part and of the layers next to it
+  Cubical voxels;  ///< the voxels of the part and of the layers next to it
   std::unique_ptr<VoxelsInUse> in_use;
   PartStars stars;
   FreeCells free;  ///< the free cells that the part alone determines
@@ -131,9 +132,10 @@ struct ImagePart::State {
   cubical::GridShape shape;
   int first = 0, last = 0;
   cubical::LayerPairs pairs;
-  cubical::FreeCells freed;               // free cells found by joins; `own` has those of a part
-  std::optional<cubical::OwnLayers> own;  // only in a single part, until ImageLoops takes it
-  Barcode bars;                           // not sorted yet
+  cubical::FreeCells freed;  // free cells found by joins; `own` has the free cells of a part
+  // Present only in a single part, until ImageLoops takes it.
+  std::optional<cubical::OwnLayers> own;
+  Barcode bars;  // the bars are not sorted yet
   MemoryClaim claim;
 };
 
