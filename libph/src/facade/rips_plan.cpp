@@ -12,20 +12,21 @@
 namespace ph::detail {
 namespace {
 
-// Any filtration type with this layout will do, because engines depend only on the kind of a
+// Any filtration type with this layout is suitable, because engines depend only on the kind of a
 // filtration, not on the size of its cells.
 using Sparse = RipsFiltration<RipsLayout::sparse, 1>;
 
-// Measured for H2 to H7: the more edges are dominated, the more time a collapse saves, up to a
-// factor of a few hundred. If two thirds of the edges are dominated, a collapse still saves half of
-// the time and of the memory. If fewer are dominated, as on spheres of higher dimension and for
-// distances that are not a metric, nearly all edges are kept and the collapse is a waste of time.
+// This was measured for H2 to H7. The more edges are dominated, the more time a collapse saves, up
+// to a factor of a few hundred. If two thirds of the edges are dominated, a collapse still saves
+// half of the time and of the memory. If fewer edges are dominated, nearly all edges are kept, and
+// the collapse is a waste of time. This happens on spheres of higher dimension and for distances
+// that are not a metric.
 constexpr double kWorthwhileShare = 0.6;
-// If homology is computed up to this dimension or a lower one, the engine is chosen without the
-// dimension of the complex, which takes long to find.
+// If homology is computed only up to this dimension or a lower one, the engine is chosen without
+// the dimension of the complex, because finding that dimension takes long.
 constexpr int kHighestByEdges = 3;
 
-/// The reason why a collapse would spoil the result; empty if it would not.
+/// The reason why a collapse would spoil the result, or an empty text if it would not.
 std::string_view obstacle_to_collapse(const Options& options) {
   // mutant: collapse-zero-length
   if (options.min_persistence < 0) return "bars of length zero are asked for";
@@ -39,8 +40,8 @@ struct CollapseChoice {
   bool collapses;
   std::string reason;
 };
-/// Decides if edges are collapsed. @param dominated returns the share of dominated edges; called
-/// only if that share decides.
+/// Decides whether edges are collapsed. @param dominated returns the share of dominated edges;
+/// called only if the decision depends on that share.
 /// @throws Error (usage) if a collapse was asked for and would spoil the result.
 template <class Dominated>
 CollapseChoice choose_collapse(const EngineFacts& engine, const Options& options,
@@ -67,9 +68,9 @@ bool is_forest_alone(const Rips& rips) {
 }
 
 /// The highest dimension to compute.
-/// @throws Error (usage) on options that check refuses. Also throws if the lowest dimension is
-/// above the highest one and no highest one was given, or if the highest dimension is above 0 and
-/// only a spanning forest is available.
+/// @throws Error (usage) on options that check refuses. Also throws if no highest dimension was
+/// given and the lowest dimension is above the highest dimension, or if the highest dimension is
+/// above 0 and only a spanning forest is available.
 int max_dim_of(const Rips& rips, const Options& options) {
   const bool is_forest = is_forest_alone(rips);
   check(options);
@@ -104,7 +105,7 @@ struct FormChoice {
   std::string_view reason;
 };
 
-/// Makes a plan from what was chosen. @param options must include the highest dimension.
+/// Makes a plan from these choices. @param options must include the highest dimension.
 RunPlan planned(const Options& options, const FormChoice& choice, CollapseChoice&& collapse) {
   RunPlan plan = run_plan(options, *options.max_dim, choice.engine->id, choice.reason);
   plan.form = choice.form;
@@ -114,8 +115,8 @@ RunPlan planned(const Options& options, const FormChoice& choice, CollapseChoice
   return plan;
 }
 
-/// The form that lists edges for a task: a spanning forest if nothing else is available, otherwise
-/// all edges or the edges of distinct points.
+/// The form that lists edges for a task. It is a spanning forest if nothing else is available.
+/// Otherwise it is all edges or the edges of distinct points.
 RipsForm edges_for(const Rips& rips, const Options& options) {
   if (is_forest_alone(rips)) return RipsForm::forest;
   const RipsOptions& asked = rips.options();
@@ -135,14 +136,16 @@ std::optional<RipsForm> form_for(const EngineFacts& engine, const Rips& rips,
   return std::nullopt;
 }
 
-/// The condition of an engine that the input does not meet; empty if the input meets all.
+/// The condition of an engine that the input does not meet, or an empty text if the input meets all
+/// conditions.
 std::string_view obstacle_to(const EngineFacts& engine, const RipsInput& input, const Task& task) {
   return engine.rips_obstacle ? engine.rips_obstacle(input, task) : std::string_view();
 }
 
-/// The engine asked for, or the engine that suits best, as far as this can be known without edges.
-/// @param vertices number of vertices of the task. @return no engine if none can do the task.
-/// @throws Error (usage) if the engine asked for reports that it lacks something.
+/// The engine that was asked for, or otherwise the most suitable engine, as far as this can be
+/// known without edges. @param vertices the number of vertices of the task. @return no engine if
+/// none can do the task.
+/// @throws Error (usage) if the engine that was asked for reports a missing condition.
 FormChoice choose_form(const Rips& rips, const Options& options, int max_dim, Index vertices) {
   const RipsInput input{vertices, rips.points(), rips.options()};
   const Task task = task_of(options, max_dim);
@@ -178,7 +181,7 @@ RunPlan plan_by_edges(const Rips& rips, const Options& options, RipsForm form,
   const auto choice = choose_engine(Sparse(graph), options.engine, task_of(options, max_dim));
   CollapseChoice collapse =
       choose_collapse(*choice.engine, options, [&] { return dominated_share(graph, context); });
-  // The top dimension is unknown before the collapse.
+  // The top dimension is not known before the collapse.
   if (collapse.collapses)
     return planned(options, {choice.engine, form, choice.reason}, std::move(collapse));
   Options settled = options;
@@ -198,7 +201,8 @@ struct Settled {
     choice = choose_form(rips, options, max_dim, most_vertices(rips));
     if (!choice.engine && options.engine == Engine::automatic &&
         !choose_form(rips, options, max_dim, 1).engine)
-      refuse(options.engine, task_of(options, max_dim));  // impossible for any edges
+      // Refuses tasks that are impossible for any edges.
+      refuse(options.engine, task_of(options, max_dim));
     goes_by_edges = choice.engine && choice.engine->goes_by_edges && max_dim <= kHighestByEdges;
     if (!goes_by_edges) choice.form = edges_for(rips, options);
     if (rips.options().device == Device::gpu && choice.form != RipsForm::forest)
@@ -207,8 +211,8 @@ struct Settled {
                   "more than components; set max_dim to 0 and choose neither an approximation nor "
                   "an engine");
   }
-  Options options;             // include the highest dimension
-  FormChoice choice;           // no engine if none can do the task for so many vertices
+  Options options;             // the options include the highest dimension
+  FormChoice choice;           // no engine if no engine can do the task for this number of vertices
   bool goes_by_edges = false;  // true if the plan does not depend on the edges
 };
 

@@ -17,18 +17,19 @@ namespace ph {
 namespace {
 
 constexpr std::size_t kMostFits = 3;
-// Bytes by which an estimate may exceed the memory limit, because only the estimate counts pages of
-// code and small containers.
+// An estimate may exceed the memory limit by this number of bytes, because only the estimate counts
+// pages of code and small containers.
 constexpr double kBesideLimit = 4 << 20;
-// CPU seconds after which no trial begins; trials are stopped after twice that time. The user is
-// waiting for an error message.
-constexpr double kPatience = 3;  // seconds
-// The share of the remaining memory limit that a trial gets, because the heap is fragmented.
+// The number of CPU seconds after which no trial begins. Trials are stopped after twice that time.
+// The time is short because the user is waiting for an error message.
+constexpr double kPatience = 3;  // in seconds
+// The share of the remaining memory limit that a trial gets. It is less than 1 because the heap is
+// fragmented.
 constexpr double kTrialShare = 0.75;
 constexpr double kBytesPerEdge = 16;
 constexpr double kFewestPairs = 100;  // the least number of sampled pairs within the threshold
-// A sample of fewer points says little about the memory, and a sample with more distances takes too
-// long.
+// A sample of fewer points than kFewestPoints says little about the memory. A sample with more
+// distances than kMostDistances takes too long.
 constexpr Index kFewestPoints = 20;
 constexpr double kMostDistances = 2e8;
 
@@ -51,7 +52,7 @@ class Search {
       try_task(changed, {{Setting::engine, "auto"}});
     }
     if (options_.representatives != Representatives::none) drop_representatives();
-    // Tries changes that are quick to try first, because time is limited.
+    // Changes that are quick to try come first, because time is limited.
     lower_dimension(options_, {});
     if (rips_ && rips_->has_form(RipsForm::edges)) {
       sample_ = rips_->sample(context_);
@@ -94,7 +95,7 @@ class Search {
       const AnyComplex complex = make(trial);
       const Estimate e = estimate(complex, options, trial);
       const auto limit = static_cast<double>(context_.memory.limit());
-      // A run on an image works in slabs and adapts to the limit. If the limit is small, the full
+      // A run on an image works in slabs and adapts to the limit. With a small limit, the full
       // allowance would be so large that almost every run would seem to fit.
       const bool is_image = std::holds_alternative<Cubical>(complex);
       const double beside = is_image ? std::min(kBesideLimit, limit / 4) : kBesideLimit;
@@ -102,7 +103,7 @@ class Search {
       found_.push_back({std::move(changes), e.bytes_low, e.bytes_high});
       return true;
     } catch (const Error& error) {
-      // The caller may have asked to stop.
+      // This throws if the caller has asked to stop.
       if (error.kind() == ErrorKind::cancelled) context_.poll();
       return false;
     } catch (const std::bad_alloc&) {
@@ -111,7 +112,7 @@ class Search {
   }
   bool try_task(const Options& options, std::vector<Remedy> changes) {
     return try_out(options, std::move(changes), [&](const RunContext& trial) {
-      // A copy of the filtration, so that nothing made in the trial is kept.
+      // This is a copy of the filtration, so that nothing made in the trial is kept.
       return rips_ && rips_->has_form(RipsForm::edges)
                  ? AnyComplex(rips_->with(rips_->options(), trial))
                  : complex_;
@@ -123,7 +124,7 @@ class Search {
     });
   }
 
-  /// Drops representatives and, if that is not enough, dimensions as well.
+  /// Drops representatives. If that is not enough, drops dimensions as well.
   void drop_representatives() {
     Options changed = options_;
     changed.representatives = Representatives::none;
@@ -131,8 +132,8 @@ class Search {
     if (!try_task(changed, changes)) lower_dimension(changed, changes);
   }
 
-  /// Tries lower dimensions and keeps the highest that fits. @param others changes that were made
-  /// before.
+  /// Tries lower dimensions and keeps the highest dimension that fits. @param others changes that
+  /// were made before.
   void lower_dimension(Options changed, const std::vector<Remedy>& others) {
     if (is_enough()) return;
     const int highest =
@@ -156,8 +157,8 @@ class Search {
     return try_question(std::move(changed), {{Setting::threshold, text}});
   }
 
-  /// Tries a few thresholds, largest first: they leave a half of the edges, a fifth, and so on. If
-  /// so few pairs are edges that the sample cannot count them, it tries three quarters of the
+  /// Tries a few thresholds, largest first. They leave a half of the edges, a fifth, and so on. If
+  /// so few pairs are edges that the sample cannot count them, tries three quarters of the
   /// threshold, a half, and so on.
   void lower_threshold() {
     const std::optional<double> given = rips_->options().threshold;

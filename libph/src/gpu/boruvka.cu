@@ -12,11 +12,11 @@
 namespace ph::gpu {
 namespace {
 
-/// Borůvka's algorithm as on the CPU. Each point keeps its last answer, that is, the nearest point
-/// of another component that it found. The answer stays valid while the two points are in different
-/// components; after that, its distance is a lower bound. Edges are ordered by (length, larger row,
-/// smaller row). In this total order, components can choose their edges independently without
-/// closing a cycle.
+/// Runs Borůvka's algorithm in the same way as on the CPU. Each point keeps its last answer, that
+/// is, the nearest point of another component that it found. The answer stays valid while the two
+/// points are in different components. After that, the distance in the answer is a lower bound.
+/// Edges are ordered by (length, larger row, smaller row). This is a total order, so components can
+/// choose their edges independently without closing a cycle.
 class Boruvka {
  public:
   Boruvka(Search& search, double limit, FlagEdge* edges, const RunContext& context)
@@ -69,7 +69,7 @@ class Boruvka {
     search_.ask(asked_, v, context_);
   }
 
-  /// Chooses, for each component, the first edge of this length.
+  /// For each component, chooses the first edge with the length found by `propose`.
   void choose() {
     thrust::fill(thrust::device, ends_.begin(), ends_.end(), UINT64_MAX);
     thrust::fill(thrust::device, takes_.begin(), takes_.end(), kNone);

@@ -18,16 +18,17 @@ PH_DEVICE std::uint64_t ends_of(std::uint32_t a, std::uint32_t b) {
 
 /// The data of Boruvka that kernels use.
 struct BoruvkaView {
-  // For each position: the position that represents its component.
+  // For each position, the position that represents its component.
   std::uint32_t* component;
-  // For each position: the last answer. If the answer has no point, or a point that is in the same
-  // component by now, the nearest foreign point is at least as far away as the answer says.
+  // For each position, the last answer. The answer may have no point, or a point that is now in the
+  // same component. In both cases, the nearest foreign point is at least as far away as the
+  // distance in the answer.
   Nearest* nearest;
-  // For each component: the bits of an upper bound for the length of its best edge.
+  // For each component, the bits of an upper bound for the length of its best edge.
   std::uint64_t* bounds;
-  std::uint64_t* ends;   // for each component: the ends of its first edge of that length
-  std::uint32_t* takes;  // for each component: the position that has its best edge
-  std::uint32_t* joins;  // for each component: the component that it becomes part of
+  std::uint64_t* ends;  // for each component, the ends of its first edge of that length
+  std::uint32_t* takes;  // for each component, the position that has its best edge
+  std::uint32_t* joins;  // for each component, the component that it becomes part of
 
   PH_DEVICE bool knows(std::uint32_t p) const {
     const std::uint32_t q = nearest[p].position;
@@ -57,12 +58,13 @@ struct BoruvkaView {
 using Positions = thrust::device_vector<std::uint32_t>;
 
 /// Finds, for points of a forest, the nearest points of other components (*foreign* points). Each
-/// kind of search numbers the points by position in an order of its own.
+/// kind of search has its own order of the points, and numbers them by their positions in this
+/// order.
 class Search {
  public:
   virtual ~Search() = default;
   virtual std::uint32_t size() const = 0;
-  /// On the device: for each position, the row of its point in the caller's order.
+  /// On the device, the row of the point at each position in the caller's order.
   virtual const std::uint32_t* rows() const = 0;
   /// Must be called whenever the components have changed.
   virtual void see(const BoruvkaView& v) = 0;

@@ -12,7 +12,7 @@
 namespace ph::gpu {
 namespace {
 
-/// Sorts rows by a key; rows with equal keys keep their order.
+/// Sorts rows by a key. Rows with equal keys keep their order.
 template <class Key, class KeyOf>
 void sort_rows(Positions& rows, KeyOf key_of) {
   thrust::device_vector<Key> keys(rows.size());
@@ -31,7 +31,7 @@ Positions order_of(const double* x, std::uint32_t size, const Curve& curve) {
   thrust::sequence(thrust::device, rows.begin(), rows.end());
   for (int k = Axes - 1; k >= 0; --k)
     sort_rows<double>(rows, [=] __host__ __device__(std::uint32_t row) {
-      return x[std::size_t{row} * Axes + k] + 0.0;  // turns -0 into 0
+      return x[std::size_t{row} * Axes + k] + 0.0;  // the sum turns -0 into 0
     });
   sort_rows<std::uint64_t>(rows, [=] __host__ __device__(std::uint32_t row) {
     return curve.code<Axes>(x + std::size_t{row} * Axes).low;
@@ -81,7 +81,7 @@ class BvhSearch final : public Search {
       (node.first(i) == node.split ? parent_of_leaf : parent_of_node)[node.split] = i;
       (node.last(i) == node.split + 1 ? parent_of_leaf : parent_of_node)[node.split + 1] = i;
     });
-    // The second thread to reach a node knows that both children have their boxes.
+    // The second thread that reaches a node knows that both children have their boxes.
     Positions arrivals(size() - 1, 0);
     const auto arrival = raw(arrivals);
     for_each_index(size(), [=] __host__ __device__(std::uint32_t p) {

@@ -13,7 +13,7 @@
 #include "ph/detail/metric/metric.hpp"
 
 // Common definitions of the device code. This code is compiled without fused multiply-add
-// (-fmad=false): a number is then the same wherever it is computed.
+// (-fmad=false), so that a number is the same wherever it is computed.
 
 namespace ph::gpu {
 
@@ -54,8 +54,8 @@ template <class T>
 PH_DEVICE void store(T& cell, T value) {
   cuda::atomic_ref<T, cuda::thread_scope_device>(cell).store(value, cuda::memory_order_relaxed);
 }
-/// Lowers a number to `value` unless it is smaller already. The number is read first, because most
-/// calls do not lower it and reading is cheap.
+/// Lowers a number to `value` unless the number is smaller already. The number is read first,
+/// because most calls do not lower it and reading is cheap.
 PH_DEVICE void lower(std::uint64_t& cell, std::uint64_t value) {
   if (value < load(cell))
     cuda::atomic_ref<std::uint64_t, cuda::thread_scope_device>(cell).fetch_min(
@@ -66,7 +66,7 @@ PH_DEVICE void lower(std::uint64_t& cell, std::uint64_t value) {
 PH_DEVICE std::uint64_t bits_of(double x) { return cuda::std::bit_cast<std::uint64_t>(x); }
 PH_DEVICE double of_bits(std::uint64_t bits) { return cuda::std::bit_cast<double>(bits); }
 
-// Distances as PointMetric computes them if no square of a coordinate overflows.
+// These functions compute the same distances as PointMetric if no square of a coordinate overflows.
 
 inline constexpr double kLeastPlainSquare = PointMetric::kLeastPlainSquare;
 
@@ -75,7 +75,7 @@ PH_DEVICE double square_of_distance(const double* x, const double* y, int axes) 
   for (int k = 0; k < axes; ++k) sum += (x[k] - y[k]) * (x[k] - y[k]);
   return sum;
 }
-/// @param square the result of square_of_distance; if it is tiny, it has lost digits.
+/// @param square the result of square_of_distance; if the result is tiny, it has lost digits.
 PH_DEVICE double distance_of_square(double square, const double* x, const double* y, int axes) {
   if (square >= kLeastPlainSquare || square == 0) return std::sqrt(square);
   double largest = 0;

@@ -18,7 +18,8 @@
 namespace ph::gpu {
 namespace {
 
-constexpr int kMostAxesOfBoxes = 8;  // as on the CPU: with more axes, boxes exclude few points
+// The limit is the same as on the CPU, because with more axes, boxes exclude few points.
+constexpr int kMostAxesOfBoxes = 8;
 
 void require_device(std::size_t points, std::size_t axes) {
   cudaDeviceProp device;
@@ -53,7 +54,7 @@ struct Cloud {
     const double* const from = is_whole ? points.row(0) : copy.data();
     thrust::copy(from, from + coordinates.size(), coordinates.begin());
   }
-  /// The smallest coordinates, then the largest.
+  /// The box consists of the smallest coordinates, then the largest coordinates.
   std::vector<double> box() {
     std::vector<double> box;
     for (const double sign : {1.0, -1.0})

@@ -11,14 +11,14 @@
 
 namespace ph::gpu {
 
-/// A place on the curve, in 128 bits. This is enough to tell most points apart even if there are
-/// far outliers.
+/// A place on the curve, in 128 bits. Even if there are far outliers, these bits are enough to
+/// distinguish most points.
 struct Code {
   std::uint64_t high, low;
 };
 
-/// The space-filling curve through the box of all points. It divides space into cubes, whatever the
-/// extent of each axis.
+/// The space-filling curve through the box of all points. It divides space into cubes, even if the
+/// axes have different extents.
 struct Curve {
   double origin[8];
   double cells_a_unit;
@@ -58,15 +58,16 @@ struct Curve {
 };
 
 /// The data of the hierarchy that kernels use. Inner nodes have the numbers 0 to size - 2, and the
-/// root is 0; leaves are points.
+/// root has the number 0. Leaves are points.
 template <int Axes>
 struct BvhView {
   static constexpr std::uint32_t kMixed = kNone;
-  static constexpr std::uint32_t kFew = 8;  // points that are compared one by one
-  static constexpr int kMostLevels = 160;   // enough for the bits of a code and of a position
+  static constexpr std::uint32_t kFew = 8;  // the number of points that are compared one by one
+  // This is enough for the bits of a code and of a position.
+  static constexpr int kMostLevels = 160;
 
   struct Node {
-    // The first or the last of the node's positions; the node's own number is at the other end.
+    // The first or the last of the node's positions. The node's own number is at the other end.
     std::uint32_t other_end;
     // The last position of the left child, which is also the number of that child.
     std::uint32_t split;
@@ -78,12 +79,15 @@ struct BvhView {
     }
   };
 
-  std::uint32_t size;         // number of points, at least 2
+  std::uint32_t size;  // the number of points, at least 2
   const double* coordinates;  // indexed by position
-  const std::uint32_t* rows;  // for each position: the number of the point in the caller's order
+  // For each position, the number of the point in the caller's order.
+  const std::uint32_t* rows;
   Node* nodes;
-  double* boxes;          // for each node: the smallest coordinates, then the largest
-  std::uint32_t* labels;  // for each node: the component of all its points, or kMixed
+  // For each node, the smallest coordinates, then the largest coordinates.
+  double* boxes;
+  // For each node, the component of all its points, or kMixed.
+  std::uint32_t* labels;
 
   PH_DEVICE const double* point(std::uint32_t p) const {
     return coordinates + std::size_t{p} * Axes;
@@ -103,8 +107,8 @@ struct BvhView {
     return sum;
   }
 
-  /// The number of leading bits that the codes of two positions share; -1 if a position is out of
-  /// range.
+  /// The number of leading bits that the codes of two positions share, or -1 if a position is out
+  /// of range.
   PH_DEVICE int shared(const Code* codes, std::int64_t i, std::int64_t j) const {
     if (j < 0 || j >= size) return -1;
     const Code a = codes[i], b = codes[j];
@@ -142,7 +146,8 @@ struct BvhView {
     }
   }
 
-  /// The nearest point of another component; of equally near points, the point with the lowest row.
+  /// The nearest point of another component. If several points are equally near, returns the point
+  /// with the lowest row.
   /// @param within points farther away than this may be ignored.
   PH_DEVICE Nearest nearest_foreign(std::uint32_t p, const std::uint32_t* component,
                                     double within) const {
@@ -163,7 +168,7 @@ struct BvhView {
       reach = reach_of(d, Axes);
     };
     constexpr double never = HUGE_VAL;
-    double gaps[kMostLevels];  // distances to the nodes that are postponed, one per level
+    double gaps[kMostLevels];  // the distances to the nodes that are postponed, one per level
     std::uint32_t later[kMostLevels];
     int height = 0;
     for (std::uint32_t at = 0;;) {

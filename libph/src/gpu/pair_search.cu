@@ -6,8 +6,8 @@
 
 #include "libph/src/gpu/boruvka.cuh"
 
-// Finds nearest foreign points by comparing all pairs of points. This is for spaces of so many
-// dimensions that boxes exclude nothing.
+// Finds nearest foreign points by comparing all pairs of points. This search is used in spaces with
+// so many dimensions that boxes exclude nothing.
 
 namespace ph::gpu {
 namespace {
@@ -26,14 +26,17 @@ struct PairPoints {
   }
 };
 
-inline constexpr int kTile = 64;  // points per side of a square of pairs
-inline constexpr int kSlab = 16;  // axes that a block holds at a time
-inline constexpr int kSide = 16;  // threads per side
+// The number of points on each side of a square of pairs.
+inline constexpr int kTile = 64;
+// The number of axes that a block holds at a time.
+inline constexpr int kSlab = 16;
+// The number of threads on each side.
+inline constexpr int kSide = 16;
 inline constexpr int kEach = kTile / kSide;
 
 /// Finds the nearest foreign points of a block of 64 asked points (grid axis x). Each block
 /// searches one of several ranges that together cover all points (grid axis y). Points are sorted
-/// by component, and a pair of tiles that lie in the same component is skipped.
+/// by component. A pair of tiles whose points all belong to the same component is skipped.
 /// @param order all points, sorted by component. @param answers receives an answer for each asked
 /// point and each range.
 __global__ void __launch_bounds__(kSide* kSide)

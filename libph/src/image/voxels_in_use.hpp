@@ -7,7 +7,7 @@
 namespace ph {
 
 /// Keeps the pages of an image file in memory while voxels are read in random order. The budget
-/// counts these pages; the destructor lets them leave the memory.
+/// counts these pages. The destructor allows them to leave the memory.
 class VoxelsInUse {
  public:
   /// @param image the image; the data that it points to must outlive this object. @throws Error

@@ -9,7 +9,7 @@
 namespace ph {
 namespace {
 
-// The format whose magic number the input has.
+// Finds the format by its magic number.
 std::optional<Format> by_magic(const Input& input) {
   if (detail::is_npy(input)) return Format::npy;
   if (detail::is_png(input)) return Format::png;
@@ -60,8 +60,8 @@ std::optional<Format> format_by_content(const Input& input) {
   if (const auto format = by_magic(input)) return *format;
   if (const auto format = by_extension(input)) return *format;
   if (is_text(input.text())) return std::nullopt;
-  // Bytes without a magic number may be Ripser's binary format. For anything else, the reader of
-  // text reports the problem.
+  // Bytes without a magic number may be in Ripser's binary format. For any other bytes, the reader
+  // of text reports the problem.
   return input.extension() == ".bin" ? Format::binary : Format::points;
 }
 

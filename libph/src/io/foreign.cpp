@@ -74,7 +74,8 @@ bool is_picture(std::string_view bytes, std::array<std::string_view, 2> letters)
          is_size(line.substr(blank + 1));
 }
 
-// An OBJ mesh has lines "v 1 2 3", after lines that begin with a keyword of OBJ.
+// True if the file is an OBJ mesh, which has lines "v 1 2 3" after lines that begin with a keyword
+// of OBJ.
 bool is_obj(std::string_view bytes) {
   constexpr std::array<std::string_view, 6> kWords{"v ", "vn ", "vt ", "o ", "g ", "mtllib "};
   for (bool is_first = true; !bytes.empty();) {
@@ -93,7 +94,7 @@ bool is_obj(std::string_view bytes) {
   return false;
 }
 
-// Binary STL has a header of 80 bytes, then the number of triangles.
+// True if the file is a binary STL, which has a header of 80 bytes, then the number of triangles.
 bool is_stl(std::string_view bytes, std::size_t size) {
   if (bytes.starts_with("solid") && bytes.find("facet normal") != std::string_view::npos)
     return true;
@@ -120,7 +121,7 @@ std::optional<ForeignKind> foreign_kind(std::string_view bytes) {
   if (is_picture(bytes, {"P1", "P4"})) return ForeignKind{"a PBM picture", kToPng};
   if (is_obj(bytes)) return ForeignKind{"an OBJ mesh", kToMesh};
   if (is_stl(bytes, size)) return ForeignKind{"an STL mesh", kToMesh};
-  // A bitmap has its length after the two letters, then four bytes of zero.
+  // A bitmap has its length after the two letters, followed by four bytes of zero.
   if (bytes.starts_with("BM") && bytes.size() > 14 && bytes.substr(6, 4) == "\0\0\0\0"sv)
     return ForeignKind{"a BMP picture", kToPng};
   return std::nullopt;

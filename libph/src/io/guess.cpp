@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Guesses what a text or an array holds if it does not declare it. If two readings make sense, one
-// is taken with a note, or the input is refused; none is taken silently.
+// Guesses the meaning of a text or an array that does not declare it. If two meanings are
+// plausible, either one of them is chosen with a note, or the input is refused. No meaning is
+// chosen silently.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -16,12 +17,14 @@
 namespace ph::detail {
 namespace {
 
-constexpr Index kMostCoordinates = 16;  // coordinates per point in an array that may be an image
-// Such an array is read as points if it has at least this many times as many rows as columns.
+// The number of coordinates per point in an array that may be an image.
+constexpr Index kMostCoordinates = 16;
+// An array is read as points if the number of rows is at least this many times the number of
+// columns.
 constexpr Index kSlender = 4;
 
 // Recognises a triangle of a matrix by the lengths of the first rows, because no other table may
-// have rows of different lengths. A colon means a list of simplices.
+// have rows of different lengths. A colon indicates a list of simplices.
 std::optional<Format> triangle_of(const Input& input) {
   TextLines lines(input);
   std::vector<std::size_t> lengths;
@@ -64,8 +67,8 @@ TextGuess guess_text(const Input& input, const ReadOptions& options) {
   guess.columns = n;
   guess.table = shape_of(input, layout);
   const SquareKind square = guess.table.square;
-  // Two rows are not enough: the coordinates of two points of the plane may happen to form a
-  // symmetric matrix.
+  // Two rows are not enough, because the coordinates of two points of the plane may happen to form
+  // a symmetric matrix.
   if (n > 2 && (square == SquareKind::distances || square == SquareKind::zeros))
     guess.format = Format::distance;
   return guess;
@@ -127,7 +130,8 @@ ArrayGuess guess_array(const Input& input, const ReadOptions& options) {
                           is_rips ? "points" : "an image", mark(Setting::format, "distance"))};
     }
     const bool has_zeros = kind == SquareKind::distances || kind == SquareKind::zeros;
-    // A picture may be black and a label map empty, but points and distances are never all zero.
+    // A picture may be black and a label map may be empty, but points and distances are never all
+    // zero.
     const bool is_sure = is_rips || (!is_mostly_zero(block, side) &&
                                      (kind == SquareKind::distances || npy.kind == 'f'));
     if (has_zeros && is_sure) {  // mutant: guess-damaged
@@ -160,7 +164,7 @@ ArrayGuess guess_array(const Input& input, const ReadOptions& options) {
   if (is_rips) return otherwise;
   // mutant: guess-slender
   const bool is_slender = columns <= kMostCoordinates && rows >= kSlender * columns;
-  // Pictures and label maps have small integers; coordinates are hardly ever small integers.
+  // Pictures and label maps have small integers, but coordinates are rarely small integers.
   const bool is_of_pixels = npy.array.type.size <= 2 && npy.kind != 'f';
   if (!is_slender) {
     if (is_of_pixels || rows < 2 || columns < 2) return otherwise;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Reads any format: chooses the format if the caller does not, and refuses options that it does not
-// support.
+// Reads any format. This file chooses the format if the caller does not, and refuses options that
+// the format does not support.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -27,10 +27,11 @@ bool goes_by_blocks(const Input& input, Format format, const ReadOptions& option
   }
 }
 
-// The format of a text of numbers. The options decide; if they leave it open, the rows do.
+// The format of a text of numbers. The options decide the format. If the options do not decide it,
+// the rows do.
 Format format_of_text(const Input& input, const ReadOptions& options) {
   if (options.array == ArrayMeaning::image) {
-    // Rows of two to four numbers are usually coordinates, hardly ever pixels.
+    // Rows of two to four numbers are usually coordinates, and rarely pixels.
     const std::size_t width = detail::table_layout(input, options).columns.size();
     if (width >= 2 && width <= 4) return Format::points;
     if (width > 4)
@@ -45,8 +46,8 @@ Format format_of_text(const Input& input, const ReadOptions& options) {
   if (const std::string option = detail::matrix_option(options); !option.empty()) {
     const bool is_square = guess.table.rows == guess.columns;
     // A table that is not square is read as points if the option concerns only the diagonal. Points
-    // have no diagonal: an option that accepts any diagonal is always fulfilled, and an option that
-    // takes births from the diagonal is refused later.
+    // have no diagonal. An option that accepts any diagonal is therefore always fulfilled, and an
+    // option that takes births from the diagonal is refused later.
     const bool has_diagonal = !options.from_correlation && options.diagonal != Diagonal::zero;
     const bool is_by_diagonal =
         options.diagonal == Diagonal::births || options.symmetrise == Symmetrise::none;

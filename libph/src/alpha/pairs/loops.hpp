@@ -20,7 +20,7 @@ namespace ph::alpha {
 /// the columns that are added to a column are then near it in memory. If a column reaches the pivot
 /// of a younger column, it takes over that pivot, and the younger column is reduced further
 /// (Morozov & Nigmetov, Towards lockfree persistent homology, 2020). As in the standard algorithm,
-/// columns are added to younger ones.
+/// only older columns are added to younger columns.
 ///
 /// In a periodic space, each boundary that is reduced to zero gives birth to an essential class of
 /// H2, and each edge that stays unpaired gives birth to an essential class of H1.

@@ -57,8 +57,8 @@ class OneSidedMatching {
   std::optional<double> hall_bound(double radius);
   /// Removes pairs of bars that are too far apart, and pairs of short bars.
   void keep_pairs_within(double radius);
-  /// Pairs long bars that have no partner with free bars. @return the long bars that are left
-  /// without a partner because no free bar lies within the radius.
+  /// Pairs long bars that have no partner with free bars. @return the long bars that still have no
+  /// partner, because no free bar is within the radius.
   std::vector<Number> pair_with_free(double radius);
   /// Looks for disjoint alternating paths to free bars, one after another, depth first.
   /// @param roots bars without a partner; bars that find a partner are removed.

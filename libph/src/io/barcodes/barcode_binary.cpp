@@ -11,7 +11,7 @@
 namespace ph {
 namespace {
 
-/// Appends a number of 8 bytes, little endian on every machine.
+/// Appends a number of 8 bytes, which is little endian on every machine.
 template <class T>
 void put(OutputFile& file, T value) {
   static_assert(sizeof(T) == 8);
@@ -28,7 +28,7 @@ constexpr std::int64_t kDiphaDiagram = 2;
 
 void write_barcode_dipha(OutputFile& file, const Barcode& barcode,
                          const std::optional<double>& threshold) {
-  // An essential class of dimension k is stored with the dimension -k-1; its death is the largest
+  // An essential class of dimension k is stored with the dimension -k-1. Its death is the largest
   // of the threshold and all finite values.
   double largest = threshold && std::isfinite(*threshold) ? *threshold : -kInfinity;
   for (const Bar& bar : barcode)
@@ -38,7 +38,7 @@ void write_barcode_dipha(OutputFile& file, const Barcode& barcode,
   put(file, static_cast<std::int64_t>(barcode.size()));
   for (const Bar& bar : barcode) {
     put(file, std::int64_t{bar.is_infinite() ? -bar.dim - 1 : bar.dim});
-    put(file, bar.birth + 0.0);  // turns -0 into 0
+    put(file, bar.birth + 0.0);  // the sum turns -0 into 0
     put(file, bar.is_infinite() ? largest : bar.death);
   }
 }

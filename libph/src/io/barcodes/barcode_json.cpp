@@ -15,8 +15,8 @@
 namespace ph {
 namespace {
 
-/// JSON has no infinities. Minus infinity becomes the string "-inf"; plus infinity becomes null,
-/// and a death of null means that the class never dies.
+/// JSON has no infinities. Minus infinity therefore becomes the string "-inf", and plus infinity
+/// becomes null. A death of null means that the class never dies.
 std::string json_value(double value) {
   return value == -kInfinity ? "\"-inf\"" : json::number(value);
 }
@@ -34,13 +34,13 @@ std::string json_cell_member(const InputCell& cell) {
   return "";
 }
 
-/// A cell as an object; null if the cell is unknown.
+/// A cell as an object, or null if the cell is unknown.
 std::string json_cell(const std::optional<InputCell>& cell) {
   if (!cell || cell->numbers.empty()) return "null";
   return fmt::format("{{{}}}", json_cell_member(*cell));
 }
 
-/// A chain can be as long as the input, and is therefore written term by term.
+/// Writes a chain term by term, because a chain can be as long as the input.
 void write_chain(OutputFile& file, const InputChain& chain) {
   file.write("[");
   for (std::size_t i = 0; i < chain.size(); ++i)
@@ -61,7 +61,7 @@ std::string_view tightness_name(Tightness tightness) {
   return "";
 }
 
-/// Throws if the loops do not fit the bars. Called before anything is written.
+/// Throws if the loops do not match the bars. Called before anything is written.
 void check_loops(const Barcode& barcode, std::span<const BarLoops> loops) {
   if (loops.empty()) return;
   const auto fail = [](const std::string& found, const std::string& expected) {
@@ -85,8 +85,8 @@ void check_loops(const Barcode& barcode, std::span<const BarLoops> loops) {
   }
 }
 
-/// Writes the member "loops" of a bar. @param edge any cell of the bar's chain; it tells whether
-/// vertices are written as numbers or as grid coordinates.
+/// Writes the member "loops" of a bar. @param edge any cell of the bar's chain. It determines
+/// whether vertices are written as numbers or as grid coordinates.
 void write_loops(OutputFile& file, const BarLoops& of_bar, const InputCell& edge) {
   const bool is_grid = edge.kind == CellKind::grid;
   const std::size_t arity = is_grid ? edge.numbers.size() : 1;
@@ -107,8 +107,8 @@ void write_loops(OutputFile& file, const BarLoops& of_bar, const InputCell& edge
   file.write("]");
 }
 
-/// Writes the birth voxel and the death voxel of a bar, then its cycle, or its set of voxels if it
-/// has no cycle.
+/// Writes the birth voxel and the death voxel of a bar, then its cycle. If the bar has no cycle,
+/// writes its set of voxels instead.
 void write_voxels(OutputFile& file, const Barcode& barcode, std::size_t i) {
   file.write(fmt::format(", \"birth_voxel\": [{}]", fmt::join(barcode.birth_voxel(i), ", ")));
   const auto death = barcode.death_voxel(i);

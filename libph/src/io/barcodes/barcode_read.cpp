@@ -24,7 +24,7 @@ Barcode read_dipha(const Input& input) {
   Barcode barcode;
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t at = cursor.offset();
-    // An essential class of dimension k is stored with the dimension -k-1; its death serves only
+    // An essential class of dimension k is stored with the dimension -k-1. Its death is used only
     // for drawing.
     const auto dim = cursor.read<std::int64_t>("bar");
     Bar bar;
@@ -83,7 +83,8 @@ StoredBarcode read_npy(const Input& input) {
   return stored;
 }
 
-// The content decides. If it does not identify the format, the extension does; the default is csv.
+// The content decides the format. If the content does not identify the format, the extension
+// decides. The default is csv.
 BarcodeFormat format_of(const Input& input) {
   if (detail::is_npy(input) || detail::is_npz(input)) return BarcodeFormat::npy;
   if (detail::is_dipha(input)) return BarcodeFormat::dipha;

@@ -97,7 +97,7 @@ class InfoReader {
  private:
   static constexpr std::int64_t kMost = std::numeric_limits<std::int32_t>::max();
 
-  // null means unknown.
+  // A null value means that the text is unknown.
   std::string text() { return json_.accept_null() ? std::string() : json_.string(); }
   std::optional<double> number() {
     return json_.accept_null() ? std::nullopt : std::optional(value_of(json_));
@@ -162,7 +162,7 @@ class InfoReader {
   BarcodeInfo& info_;
 };
 
-/// Reads the JSON that write_barcode_json writes; unknown members are skipped.
+/// Reads the JSON that write_barcode_json writes. Unknown members are skipped.
 class Reader {
  public:
   explicit Reader(const Input& input) : input_(input), json_(input) {}
@@ -206,7 +206,8 @@ class Reader {
 
  private:
   void skip(const std::string& name) {
-    constexpr std::size_t most = 20;  // names; enough to tell the user what is lost
+    // The number of names is large enough to tell the user what is lost.
+    constexpr std::size_t most = 20;
     if (skipped_.size() < most) skipped_.insert(printable(name, 40));
     json_.skip_value();
   }
@@ -216,8 +217,8 @@ class Reader {
     const std::string value = json_.string();
     if (value == "cycles") return Representatives::cycles;
     if (value == "cocycles") return Representatives::cocycles;
-    // Sets of voxels are not read: only segmentation programs need them, and a few numbers in the
-    // file may stand for an entire image.
+    // Sets of voxels are not read, because only segmentation programs need them, and a few numbers
+    // in the file may represent an entire image.
     if (value != "none" && value != "voxels") {
       json_.fail(place,
                  {"representatives", printable(value, 40), "cycles, cocycles, voxels or none", {}});
@@ -323,7 +324,7 @@ class Reader {
     }
   }
 
-  // If member `name` holds the numbers of a cell, stores them in `numbers`, starting at index
+  // If member `name` contains the numbers of a cell, stores them in `numbers`, starting at index
   // `begin`.
   // @return false for any other member.
   bool read_numbers(const std::string& name, std::vector<Index>& numbers, std::size_t begin,
@@ -364,7 +365,7 @@ class Reader {
         }
       }
       coefficients_.push_back(coefficient);
-      // All cells of a chain have the same number of numbers.
+      // All cells of a chain have the same quantity of numbers.
       const std::size_t numbers = chain_.size() - before;
       if (numbers == 0 || chain_.size() != numbers * coefficients_.size() || coefficient == 0) {
         json_.fail(place, {"representative",

@@ -15,7 +15,7 @@
 namespace ph {
 namespace {
 
-/// The content of a column in a table of bars.
+/// The meaning of a column in a table of bars.
 enum class Column { dim, birth, death, p, characteristic, other };
 
 constexpr std::array<std::pair<std::string_view, Column>, 7> kNames{{
@@ -33,7 +33,7 @@ struct Columns {
   std::vector<Column> roles;
   /// The columns of a row, for messages.
   std::string expected = "dim birth death, or p dim birth death";
-  /// Names of columns that a Bar cannot hold.
+  /// Names of columns that cannot be stored in a Bar.
   std::vector<std::string> left_out;
 
   bool has(Column role) const { return std::ranges::find(roles, role) != roles.end(); }
@@ -53,15 +53,16 @@ const Column* column_of(const std::string& name) {
   return found == kNames.end() ? nullptr : &found->second;
 }
 
-/// True if the current line is a header: it consists of names, or names at least one known column.
+/// True if the current line is a header, that is, it consists of names or names at least one known
+/// column.
 bool is_line_of_names(const TextLines& lines) {
   return !header_names(lines.line()).empty() ||
          std::ranges::any_of(detail::header_cells(lines.line(), false), column_of);
 }
 
-/// Finds the columns by the names in the current line; the columns may be in any order. Returns
-/// nothing unless the line names dimension, birth and death once each and all other names are
-/// known. A first column without a name is an index, as pandas and R write it.
+/// Finds the columns by the names in the current line, in any order. Returns nothing unless the
+/// line names dimension, birth and death once each and all other names are known. The first column
+/// may have no name. It is then an index, as written by pandas and R.
 std::optional<Columns> columns_by_name(const TextLines& lines) {
   const std::vector<std::string> names = detail::header_cells(lines.line(), false);
   Columns columns;
@@ -88,8 +89,8 @@ void find_index(const TextLines& lines, Columns& columns) {
     columns.roles.insert(columns.roles.begin(), Column::other);
 }
 
-/// Finds the columns of a table without a header from the number of cells in its first row, which
-/// is `dim birth death`, or GUDHI's `p dim birth death`.
+/// Finds the columns of a table without a header from the number of cells in its first row. The
+/// columns are `dim birth death` or, as in GUDHI's files, `p dim birth death`.
 Columns columns_by_count(const TextLines& lines) {
   Cells counter(lines);
   std::size_t count = 0;
@@ -103,7 +104,7 @@ Columns columns_by_count(const TextLines& lines) {
   return columns;
 }
 
-/// Reads a dimension; programs that store only floats write it as 1.0 or 1.000e+00.
+/// Reads a dimension. Programs that store only floats write it as 1.0 or 1.000e+00.
 int read_dimension(Cells& cells) {
   Cells ahead = cells;
   const std::string_view word = cells.more() ? ahead.word() : std::string_view();
@@ -208,8 +209,8 @@ bool has_barcode_header(const Input& input) {
   return lines.next() && columns_by_name(lines).has_value();
 }
 
-// Reads Ripser's output: a heading for each dimension and lines ` [birth,death)`; text before the
-// first heading describes the input.
+// Reads Ripser's output, which has a heading for each dimension and lines ` [birth,death)`. Text
+// before the first heading describes the input.
 Barcode read_barcode_ripser(const Input& input) {
   Barcode barcode;
   TextLines lines(input);

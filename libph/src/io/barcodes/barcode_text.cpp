@@ -9,12 +9,12 @@
 namespace ph {
 
 std::string shortest(double value) {
-  return fmt::format("{}", value == 0 ? 0.0 : value);  // turns -0.0 into 0
+  return fmt::format("{}", value == 0 ? 0.0 : value);  // the number -0.0 becomes 0
 }
 
 namespace {
 
-/// As in Ripser's output: six significant digits; -0 becomes 0.
+/// Formats a number as in Ripser's output, with six significant digits. The number -0 becomes 0.
 std::string six_digits(double value) { return fmt::format("{:g}", value == 0 ? 0.0 : value); }
 
 }  // namespace

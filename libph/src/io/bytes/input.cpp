@@ -19,11 +19,11 @@
 namespace ph {
 namespace {
 
-// Files up to this size are copied instead of mapped. Copying is cheaper than page faults, and safe
-// if the file shrinks.
+// Files up to this size are copied instead of mapped. Copying is cheaper than page faults, and is
+// safe if the file shrinks.
 constexpr std::size_t kMapFrom = std::size_t{16} << 20;
 constexpr std::size_t kFirstChunk = std::size_t{64} << 10;
-// A stream that begins with this many NUL bytes holds no data.
+// A stream that begins with this many NUL bytes contains no data.
 constexpr std::size_t kNulProbe = std::size_t{1} << 20;
 
 // A file descriptor, which the destructor closes unless it is standard input.
@@ -51,15 +51,16 @@ std::size_t half_of_memory() {
   return all == 0 ? std::numeric_limits<std::size_t>::max() : static_cast<std::size_t>(all / 2);
 }
 
-// Length of the UTF-8 sequence at the start of `s`; 0 if it is invalid, or not allowed in a
-// message.
+// The length of the UTF-8 sequence at the start of `s`. It is 0 if the sequence is invalid or not
+// allowed in a message.
 std::size_t printable_length(std::string_view s) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(s[i]); };
   const std::size_t length = utf8_length(s);
   if (length == 1 && (byte(0) < 0x20 || byte(0) == 0x7F)) return 0;
-  if (length == 2 && byte(0) == 0xC2 && byte(1) < 0xA0) return 0;  // C1 control characters
-  // With line separators and marks that reorder text, a name could change how the message around it
-  // reads.
+  // C1 control characters are not allowed.
+  if (length == 2 && byte(0) == 0xC2 && byte(1) < 0xA0) return 0;
+  // Line separators and marks that reorder text are not allowed, because a name with them could
+  // change how the message around it reads.
   if (length == 3 && byte(0) == 0xE2 && byte(1) == 0x80 && byte(2) >= 0xA8 && byte(2) <= 0xAE)
     return 0;
   return length;
@@ -112,8 +113,8 @@ std::string printable(std::string_view bytes, std::size_t max_bytes) {
   return result;
 }
 
-// The bytes of an Input: a buffer of the run's memory resource, a mapped file, a vector or a
-// temporary file.
+// The bytes of an Input. They are in a buffer of the run's memory resource, a mapped file, a vector
+// or a temporary file.
 struct Input::Storage {
   explicit Storage(std::pmr::memory_resource* resource) : memory(resource) {}
   explicit Storage(std::pmr::vector<char> bytes)
@@ -147,7 +148,7 @@ struct Input::Storage {
   std::size_t used = 0;
   bool mapped = false;
   std::optional<MemoryClaim> claim;  // the memory of a mapped file's pages
-  // True if the input exceeds the budget: it then stays in a file and is not counted.
+  // True if the input exceeds the budget. It then stays in a file and is not counted.
   bool exceeds = false;
 };
 
@@ -237,7 +238,8 @@ Input Input::open(const std::filesystem::path& whole_path, const RunContext* con
     if (storage->used == storage->capacity) {
       if (sized && storage->used == file_size) break;
       const std::size_t more = sized ? file_size : std::max(kFirstChunk, 2 * storage->capacity);
-      if (more > limit - std::min(limit, storage->capacity)) {  // both buffers exist while it grows
+      // Both buffers exist while the data are copied.
+      if (more > limit - std::min(limit, storage->capacity)) {
         throw Error(
             ErrorKind::resource,
             fmt::format("{}: longer than the memory limit allows: {} were read",

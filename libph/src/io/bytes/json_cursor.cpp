@@ -11,7 +11,7 @@
 namespace ph::detail {
 namespace {
 
-constexpr int kMostDepth = 64;  // nesting depth of a skipped value
+constexpr int kMostDepth = 64;  // the nesting depth of a skipped value
 
 void append_utf8(std::string& text, std::uint32_t code) {
   const auto put = [&](std::uint32_t byte) { text += static_cast<char>(byte); };
@@ -32,14 +32,15 @@ void append_utf8(std::string& text, std::uint32_t code) {
   }
 }
 
-/// Removes the digits at the start of `word`. @return true if there are any.
+/// Removes the digits at the start of `word`. @return true if there are digits.
 bool take_digits(std::string_view& word) {
   const std::size_t end = std::min(word.find_first_not_of("0123456789"), word.size());
   word.remove_prefix(end);
   return end > 0;
 }
 
-/// Follows RFC 8259: no zero before other digits, and digits on both sides of a point.
+/// Follows RFC 8259. A number has no zero before other digits, and has digits on both sides of a
+/// decimal point.
 bool is_json_number(std::string_view word) {
   if (word.starts_with('-')) word.remove_prefix(1);
   if (word.size() > 1 && word[0] == '0' && word[1] >= '0' && word[1] <= '9') return false;

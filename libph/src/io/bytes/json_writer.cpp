@@ -15,7 +15,7 @@ std::string string(std::string_view text) {
     const std::size_t length = utf8_length(text);
     const char c = text.front();
     if (length == 0) {
-      out += "\xef\xbf\xbd";  // U+FFFD
+      out += "\xef\xbf\xbd";  // the replacement character U+FFFD
     } else if (c == '"' || c == '\\') {
       out += '\\';
       out += c;

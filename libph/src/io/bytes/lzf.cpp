@@ -9,21 +9,21 @@
 namespace ph::detail {
 namespace {
 
-constexpr std::size_t kSlack = 32;  // bytes that a copy may write beyond its end
-// Approximate number of bytes sent to the sink at once.
+constexpr std::size_t kSlack = 32;  // the number of bytes that a copy may write beyond its end
+// The approximate number of bytes sent to the sink at once.
 constexpr std::size_t kPiece = std::size_t{1} << 16;
-constexpr std::size_t kMaxLiterals = 32;  // largest number of literals in a run
+constexpr std::size_t kMaxLiterals = 32;  // the largest number of literals in a run
 constexpr std::size_t kMaxDistance = 1 << 13;
 constexpr std::size_t kMaxMatch = 264;
 constexpr unsigned kHashBits = 14;
 
 // Copies `length` bytes to `to` from the position `distance` bytes before it. If the two ranges
-// overlap, the first `distance` bytes are repeated; the piece that is copied then doubles with
-// every step.
+// overlap, the first `distance` bytes are repeated. The length of the copied piece then doubles
+// with every step.
 void copy_match(std::byte* to, std::size_t distance, std::size_t length) {
   const std::byte* from = to - distance;
-  // Copies entire blocks, which is faster than copying the exact length; up to kSlack bytes after
-  // the copy are overwritten.
+  // Entire blocks are copied, which is faster than copying the exact length. Up to kSlack bytes
+  // after the copy are overwritten.
   if (distance >= 16) {
     for (std::size_t k = 0; k < length; k += 16) std::memcpy(to + k, from + k, 16);
     return;
@@ -56,14 +56,14 @@ void put_literals(std::vector<std::byte>& out, std::span<const std::byte> bytes)
 }  // namespace
 
 LzfFault lzf_decompress(std::span<const std::byte> in, std::size_t size, const LzfSink& sink) {
-  // The window holds the recent output, to which matches refer, followed by the next output. Both
-  // fit into the second-level cache.
+  // The window contains the recent output, to which matches refer, followed by the next output.
+  // Both parts fit into the second-level cache.
   std::vector<std::byte> window(kMaxDistance + kPiece + kMaxMatch + kSlack);
   std::byte* const out = window.data();
   const std::size_t full = kMaxDistance + kPiece;
-  std::size_t i = 0;     // next byte of `in`
-  std::size_t o = 0;     // next byte of the window
-  std::size_t sent = 0;  // bytes of the window that the sink has received
+  std::size_t i = 0;     // the next byte of `in`
+  std::size_t o = 0;     // the next byte of the window
+  std::size_t sent = 0;  // the number of bytes of the window that the sink has received
   std::size_t left = size;
   const auto fault = [&](const char* reason) { return LzfFault{reason, i}; };
   while (i < in.size()) {
@@ -104,9 +104,10 @@ LzfFault lzf_decompress(std::span<const std::byte> in, std::size_t size, const L
 std::vector<std::byte> lzf_compress(std::span<const std::byte> in) {
   std::vector<std::byte> out;
   out.reserve(in.size() / 2 + 64);
-  // The newest position of each hash; SIZE_MAX if the hash has not occurred.
+  // The newest position of each hash, or SIZE_MAX if the hash has not occurred.
   std::vector<std::size_t> last(std::size_t{1} << kHashBits, SIZE_MAX);
-  std::size_t i = 0, literals = 0;  // literals: start of the bytes that are not written yet
+  // `literals` is the start of the bytes that are not written yet.
+  std::size_t i = 0, literals = 0;
   while (i + 3 <= in.size()) {
     std::size_t& slot = last[hash_of(in.data() + i)];
     const std::size_t candidate = slot;

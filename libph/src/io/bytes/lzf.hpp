@@ -7,8 +7,9 @@
 
 namespace ph::detail {
 
-// LZF is the compression inside PCD files: runs of literals (a byte n < 32, then n + 1 bytes) and
-// matches (three bits of length, thirteen bits of distance) that repeat earlier output.
+// LZF is the compression inside PCD files. The compressed data consist of runs of literals (a byte
+// n < 32, then n + 1 bytes) and matches that repeat earlier output (three bits of length, thirteen
+// bits of distance).
 
 /// The place and the reason of a failed decompression; `reason` is null if it succeeded.
 struct LzfFault {
@@ -16,7 +17,7 @@ struct LzfFault {
   std::size_t offset = 0;  ///< offset into the compressed bytes
 };
 
-/// A compressed byte never stands for more bytes than this.
+/// A compressed byte never expands to more than this number of bytes.
 constexpr std::size_t kLzfMaxExpansion = 88;
 
 /// Receives the decompressed bytes in order, piece by piece.
@@ -25,7 +26,7 @@ using LzfSink = std::function<void(std::span<const std::byte>)>;
 /// Decompresses exactly `size` bytes through a small window. @return the fault, if there is one.
 LzfFault lzf_decompress(std::span<const std::byte> in, std::size_t size, const LzfSink& sink);
 
-/// Compresses bytes; in the worst case, the result is 1/32 longer than the input.
+/// Compresses bytes. In the worst case, the result is 1/32 longer than the input.
 std::vector<std::byte> lzf_compress(std::span<const std::byte> in);
 
 }  // namespace ph::detail

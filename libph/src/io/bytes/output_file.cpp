@@ -37,9 +37,9 @@ std::filesystem::path folder_of(const std::filesystem::path& path) {
   return path.has_parent_path() ? path.parent_path() : ".";
 }
 
-/// The descriptor to write to if `path` names an open descriptor, or the file to which standard
-/// output or standard error goes. Opening such a file again, or replacing it, would lose its
-/// content. Empty for any other path.
+/// The descriptor to write to if `path` names an open descriptor or a file to which standard output
+/// or standard error is redirected. Opening this file again, or replacing it, would lose its
+/// content. Returns nothing for any other path.
 std::optional<int> descriptor_of(const std::string& path) {
   if (path == "-") return files::kStandardOutput;
   if (const auto named = files::descriptor_named(files::path_of(path))) return named;
@@ -180,8 +180,8 @@ void OutputFile::commit() {
   if (!files::rename(temporary_, target_)) fail_replacing(path_, errno);
   temporary_.clear();
   discard();
-  // The new name is permanent only once the folder is on the disk. If this fails, the file is still
-  // complete.
+  // The new name is permanent only after the folder has been written to the disk. If this fails,
+  // the file is still complete.
   files::sync_folder(folder);
 }
 

@@ -17,18 +17,17 @@ struct TextTable {
   std::vector<std::string> header;  ///< the cells of a first line without numbers, or empty
 };
 
-/// Reads an entire table. @param allow the cells that may occur besides finite numbers.
+/// Reads an entire table. @param allow the cells that may occur in addition to finite numbers.
 /// @param counted true if the first line is the number of rows. @param layout the columns to read;
 /// if null, all columns are read, and a first line of names is a header.
 TextTable read_text_table(const Input& input, Allow allow, const ReadOptions& options,
                           bool counted = false, const TableLayout* layout = nullptr);
-/// Reads a table as an image: one row of pixels per line. One row or one column is an image of one
-/// axis.
+/// Reads a table as an image, with one row of pixels per line. A single row or column becomes an
+/// image with one axis.
 Image read_grid(const Input& input, const ReadOptions& options);
 
-/// Removes the rows with a NaN, or throws, depending on options.nan; reports the rows that it
-/// removes.
-/// @param holes true if rows with a NaN are holes of a point cloud: they are always left out.
+/// Depending on options.nan, either removes the rows with a NaN and reports these rows, or throws.
+/// @param holes true if rows with a NaN are holes of a point cloud; these rows are always removed.
 Points without_nan_rows(Points points, const Input& input, const ReadOptions& options, bool holes);
 
 /// Converts a square array to distances; see read_distances.
@@ -40,8 +39,8 @@ struct LocatedEdge {
   WeightedEdge edge;
   std::size_t place = 0;
 };
-/// Sorts pairs u < v, and removes repeated pairs and pairs with an infinite distance. A pair that
-/// is listed again with another distance is reported to `fail(place, fault)`, which throws.
+/// Sorts pairs u < v, and removes repeated pairs and pairs with an infinite distance. If a pair is
+/// listed twice with different distances, calls `fail(place, fault)`, which throws.
 std::vector<WeightedEdge> unique_edges(std::vector<LocatedEdge> pairs, const Input& input,
                                        const std::function<void(std::size_t, const Fault&)>& fail);
 
@@ -57,26 +56,26 @@ bool is_nifti(const Input& input);
 bool is_dipha(const Input& input);
 
 /// True if the first bytes contain no control characters except tabs and line ends. Binary formats
-/// begin with a count of eight bytes; a count below 2^40 contains NUL bytes, which do not occur in
+/// begin with a count of eight bytes. A count below 2^40 contains NUL bytes, which do not occur in
 /// text.
 bool is_text(std::string_view bytes);
 
-/// True if the first line of a set of points is their number, as in PTS.
+/// True if the first line of a set of points is the number of points, as in PTS.
 bool is_counted(const Input& input);
 
-/// Reads an NPY, or the array of an NPZ, unchanged: NaN remain.
+/// Reads an NPY, or the array of an NPZ, without changes. NaN remain.
 Image read_npy_array(const Input& input, Input::Excess excess = Input::Excess::refused);
-/// True if an NPY has floats. Precondition: it is an NPY.
+/// True if an NPY contains floats. Precondition: the input is an NPY.
 bool is_npy_of_floats(const Input& input);
 /// The only array of an NPZ, or the array that input.member() names, unpacked.
 Input read_npz_member(const Input& input);
 
-/// One number per pixel of a PNG, chosen by options.channel.
+/// Makes an image from a PNG, with one number per pixel. The channel is chosen by options.channel.
 Image image_of(Raster raster, const Input& input, const ReadOptions& options);
 Image read_png_image(const Input& input, const ReadOptions& options);
 Image read_pgm_image(const Input& input);
 
-/// The content of a DIPHA file: the number after its magic number.
+/// The type of a DIPHA file, which is the number after the magic number.
 enum class DiphaType : std::int64_t {
   boundary_matrix = 0,
   image = 1,
@@ -96,14 +95,14 @@ DistanceMatrix read_dipha_distances(const Input& input, const ReadOptions& optio
 SparseDistances read_dipha_sparse(const Input& input, const ReadOptions& options);
 BoundaryInput read_dipha_boundary(const Input& input, const ReadOptions& options);
 
-/// Marks NaN as absent voxels or throws, depending on options.nan; an image without voxels is an
-/// error unless options.allow_empty.
+/// Depending on options.nan, either marks NaN as absent voxels or throws. An image without voxels
+/// is an error unless options.allow_empty is set.
 Image without_nan_pixels(Image image, const Input& input, const ReadOptions& options);
 
 /// Converts the numbers of a cloud between little endian and this machine's byte order.
 void to_native(Cloud& cloud);
 
-/// Checks the budget before a full vector grows.
+/// Checks the budget before a vector that is full grows.
 template <class T>
 void require_growth(const Input& input, const std::vector<T>& vector) {
   if (vector.size() == vector.capacity()) input.require_memory(2 * vector.size() * sizeof(T));

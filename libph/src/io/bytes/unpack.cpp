@@ -12,9 +12,10 @@
 namespace ph::detail {
 namespace {
 
-constexpr std::size_t kStep = std::size_t{1} << 20;  // bytes unpacked between two checks
+// The number of bytes unpacked between two checks.
+constexpr std::size_t kStep = std::size_t{1} << 20;
 
-// zlib's state, and the compressed bytes that it reads.
+// The state of zlib, and the compressed bytes that it reads.
 class Inflater {
  public:
   /// @param window_bits as for inflateInit2: 31 for gzip, -15 for raw deflate.
@@ -30,7 +31,7 @@ class Inflater {
   std::size_t unpack(char* to, std::size_t size) {
     std::size_t done = 0;
     while (done < size && !ended_ && damage_.empty()) {
-      // zlib counts in 32 bits
+      // The counts of zlib have 32 bits.
       const std::size_t in = std::min(packed_.size() - used_, std::size_t{1} << 30);
       const std::size_t out = std::min(size - done, std::size_t{1} << 30);
       stream_.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(packed_.data() + used_));
@@ -48,7 +49,7 @@ class Inflater {
       } else if (code != Z_OK && code != Z_BUF_ERROR) {
         damage_ = stream_.msg != nullptr ? stream_.msg : "not deflate data";
       } else if (taken == 0 && given == 0) {
-        break;  // the input ends before the stream does
+        break;  // the input ends before the stream ends
       }
     }
     return done;
@@ -71,7 +72,7 @@ class Inflater {
   z_stream stream_{};
 };
 
-// A buffer in a temporary file; its pages leave memory once they are written.
+// A buffer in a temporary file. Its pages leave memory once they are written.
 class FileBuffer {
  public:
   explicit FileBuffer(std::size_t bytes) : file_(bytes) {}
@@ -123,8 +124,8 @@ void gunzip_into(Buffer& bytes, const Input& input, std::size_t most) {
   for (;;) {
     input.poll();
     const std::size_t before = bytes.size();
-    // If the stated size is too large and the data so far have expanded as much, the rest is not
-    // unpacked: it could only confirm the stated size.
+    // If the stated size is too large, and the data so far have expanded to the same degree, the
+    // rest is not unpacked. Unpacking it could only confirm the stated size.
     const bool goes_on = stated > reasonable && before / kMostExpansion > inflater.used();
     if (before >= reasonable || goes_on) {
       input.fail_at_byte(inflater.used(),
@@ -166,8 +167,8 @@ void gunzip_into(Buffer& bytes, const Input& input, std::size_t most) {
   }
 }
 
-// The initial size of the buffer. It follows the stated size, but only up to four times the packed
-// size, because the statement may be false.
+// The initial size of the buffer. It is the stated size, but at most four times the packed size,
+// because the stated size may be false.
 std::size_t likely_size(std::string_view packed) {
   return std::clamp(stated_size(packed), kStep, std::max(4 * packed.size(), kStep)) + 1;
 }
@@ -191,8 +192,8 @@ std::pmr::vector<char> inflate_raw(const Input& input, std::size_t offset, std::
                                    std::size_t size) {
   Inflater inflater(input.text().substr(offset, packed_size), -15);
   std::pmr::vector<char> bytes(memory_of(input));
-  // Tries to unpack one byte more than promised, to notice any excess. The buffer grows with the
-  // data.
+  // The loop tries to unpack one byte more than the stated size, in order to notice any excess. The
+  // buffer grows with the data.
   for (;;) {
     input.poll();
     const std::size_t before = bytes.size();

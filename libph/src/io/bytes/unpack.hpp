@@ -8,9 +8,10 @@
 
 namespace ph::detail {
 
-/// Limits for the expansion of compressed data. They apply whatever the memory budget is, because a
-/// file of a few kilobytes that expands to gigabytes is a decompression bomb.
-constexpr std::size_t kMostFree = std::size_t{128} << 20;  ///< bytes that are always allowed
+/// These limits for the expansion of compressed data apply to any memory budget, because a file of
+/// a few kilobytes that expands to gigabytes is a decompression bomb.
+/// The number of bytes that is always allowed.
+constexpr std::size_t kMostFree = std::size_t{128} << 20;
 /// The largest size of a result above kMostFree, as a multiple of the packed size.
 constexpr std::size_t kMostExpansion = 256;
 
@@ -32,16 +33,16 @@ ScratchFile gunzip_to_file(const Input& packed);
 
 /// Unpacks a raw deflate stream, which must consist of exactly `packed_size` bytes and expand to
 /// exactly `size` bytes.
-/// @param offset start of the stream in the input.
-/// @throws Error (bad_data) if it does not.
+/// @param offset the start of the stream in the input.
+/// @throws Error (bad_data) if the stream has other sizes.
 std::pmr::vector<char> inflate_raw(const Input& input, std::size_t offset, std::size_t packed_size,
                                    std::size_t size);
 
-/// The CRC-32 of zip and gzip.
+/// The CRC-32 checksum of zip and gzip.
 std::uint32_t checksum(std::span<const char> bytes);
 
-/// The memory for large buffers of an input: the budget of its run, or the heap if it belongs to no
-/// run.
+/// The memory for large buffers of an input. It is the budget of the input's run, or the heap if
+/// the input belongs to no run.
 std::pmr::memory_resource* memory_of(const Input& input);
 
 }  // namespace ph::detail

@@ -5,8 +5,8 @@
 
 namespace ph {
 
-/// Length of the UTF-8 sequence at the start of `text`, which must not be empty; 0 if it is invalid
-/// (overlong forms, surrogates and code points beyond U+10FFFF are invalid).
+/// The length of the UTF-8 sequence at the start of `text`, which must not be empty. It is 0 if the
+/// sequence is invalid. Overlong forms, surrogates and code points beyond U+10FFFF are invalid.
 inline std::size_t utf8_length(std::string_view text) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   const unsigned char first = byte(0);

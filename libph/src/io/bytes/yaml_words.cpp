@@ -20,7 +20,8 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
 }
 
-/// The line without the comment at its end, which starts at a # that begins a word outside quotes.
+/// The line without the comment at its end. A comment starts at a # that begins a word outside
+/// quotes.
 std::string_view without_comment(std::string_view line) {
   char quote = 0;
   for (std::size_t i = 0; i < line.size(); ++i) {
@@ -54,7 +55,7 @@ YamlWords::YamlWords(const Input& input) : input_(input) {
     ++number_;
     if (line.ends_with('\r')) line.remove_suffix(1);
     if (line.starts_with("---") || line.starts_with("...")) {
-      if (!values_.empty()) break;  // start of another document
+      if (!values_.empty()) break;  // another document starts here
       continue;
     }
     if (!line.starts_with('%')) take_line(line);
@@ -82,7 +83,8 @@ void YamlWords::take_line(std::string_view line) {
   if (content[indent] == '\t')
     fail(indent + 1, {"a tab before a key", {}, "blanks", "YAML is indented with blanks"});
   const std::string_view rest = content.substr(indent);
-  if (rest == "-" || rest.starts_with("- ")) {  // an item of the last key that is not indented more
+  // This is an item of the last key, and is not indented more than the key.
+  if (rest == "-" || rest.starts_with("- ")) {
     while (!open_.empty() && open_.back().indent > indent) open_.pop_back();
     if (open_.empty()) fail(indent + 1, {"list", quoted(rest), "a key before it", {}});
     const std::size_t first = std::min(rest.find_first_not_of(' ', 1), rest.size());
@@ -123,7 +125,7 @@ void YamlWords::take_value(Value& value, std::string_view rest, std::size_t colu
     column += first;
   };
   skip_blanks();
-  if (rest.starts_with('!')) {  // a tag: the type of the value
+  if (rest.starts_with('!')) {  // a tag gives the type of the value
     const std::size_t length = std::min(rest.find_first_of(kBlank), rest.size());
     rest.remove_prefix(length);
     column += length;

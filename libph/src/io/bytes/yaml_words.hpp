@@ -9,10 +9,10 @@
 
 namespace ph::detail {
 
-/// The words in the first document of a YAML file. It reads the part of YAML that calibration files
-/// use: mappings by indentation, plain and quoted words, lists as `[a, b]` or as one `- a` per
-/// line, comments, and tags (which are ignored). Mappings in braces and blocks of text are skipped;
-/// any other form is an error.
+/// The words in the first document of a YAML file. The class reads the part of YAML that
+/// calibration files use. This part consists of mappings by indentation, plain and quoted words,
+/// lists as `[a, b]` or with one `- a` per line, comments, and tags (which are ignored). Mappings
+/// in braces and blocks of text are skipped. Any other form is an error.
 class YamlWords {
  public:
   struct Word {
@@ -20,7 +20,7 @@ class YamlWords {
     std::size_t line = 0, column = 0;
   };
   struct Value {
-    std::size_t line = 0, column = 0;  ///< place of its key
+    std::size_t line = 0, column = 0;  ///< the place of the key
     std::vector<Word> words;           ///< one word, or the words of a list
   };
 
@@ -28,7 +28,8 @@ class YamlWords {
   /// "name:line:column: ".
   explicit YamlWords(const Input& input);
 
-  /// Finds a value by its path in lower case, with dots between keys; null if it does not exist.
+  /// Finds a value by its path in lower case, with dots between keys. Returns null if the value
+  /// does not exist.
   const Value* find(std::string_view path) const;
   const Input& input() const { return input_; }
 
@@ -45,11 +46,12 @@ class YamlWords {
 
   const Input& input_;
   std::map<std::string, Value, std::less<>> values_;
-  // The keys whose values may continue in the next line, each indented more than the one before.
+  // The keys whose values may continue in the next line. Each key is indented more than the key
+  // before.
   std::vector<Open> open_;
-  std::size_t number_ = 0;        // number of the current line, from 1
-  Value* list_ = nullptr;         // a list whose ']' is still to come
-  std::size_t block_indent_ = 0;  // indentation of the key whose value is a block of text
+  std::size_t number_ = 0;        // the number of the current line, from 1
+  Value* list_ = nullptr;         // a list whose ']' has not been read yet
+  std::size_t block_indent_ = 0;  // the indentation of the key whose value is a block of text
   bool in_block_ = false;
 };
 

@@ -23,7 +23,7 @@ Bent bent_polynomial(const std::array<double, 8>& c, double x, double y) {
   const double r = x * x + y * y;                   // the squared radius
   const double above = 1 + r * (k1 + r * (k2 + r * k3)), below = 1 + r * (k4 + r * (k5 + r * k6));
   const double radial = above / below;
-  // d radial / d r
+  // The derivative d radial / d r.
   const double slope =
       (k1 + r * (2 * k2 + r * 3 * k3) - radial * (k4 + r * (2 * k5 + r * 3 * k6))) / below;
   return {x * radial + 2 * p1 * x * y + p2 * (r + 2 * x * x),
@@ -69,8 +69,8 @@ double Lens::reach() const {
     const double radius = std::tan(std::numbers::pi / 2 * i / angles);
     const bool rises = bent_polynomial(axial.coefficients, radius, 0).ux > 0;
     if (!rises && fold == kInfinity) fold = radius;
-    // Beyond a second fold, distances from the centre of the image increase again; the limit is set
-    // midway between the two folds.
+    // Beyond a second fold, distances from the centre of the image increase again. The limit is
+    // therefore set midway between the two folds.
     if (rises && fold != kInfinity) return (fold + radius) / 2;
   }
   return kInfinity;
@@ -128,7 +128,8 @@ Camera Camera::scaled_to(Index new_width, Index new_height) const {
   Intrinsics& k = result.intrinsics;
   k.fx *= factor;
   k.fy *= factor;
-  // Centres of pixels are at integers; the edge of the image is half a pixel before the first one.
+  // The centres of pixels are at integers. The edge of the image is half a pixel before the first
+  // centre.
   // mutant: camera-centre
   k.cx = same_shape ? (k.cx + 0.5) * factor - 0.5 : static_cast<double>(new_width - 1) / 2;
   k.cy = (k.cy + 0.5) * factor - 0.5;
@@ -136,12 +137,14 @@ Camera Camera::scaled_to(Index new_width, Index new_height) const {
 }
 
 std::span<const CameraPreset> camera_presets() {
-  // Depth registered to the colour camera, as in OpenNI's drivers and many data sets.
+  // These numbers are for depth registered to the colour camera, as in OpenNI's drivers and many
+  // data sets.
   static constexpr Camera primesense{{525, 525, 319.5, 239.5}, 640, 480};
-  // The depth camera of the second Kinect; the default of libfreenect2 and Open3D.
+  // These numbers are for the depth camera of the second Kinect. They are the default of
+  // libfreenect2 and Open3D.
   static constexpr Camera kinect_v2{{365.456, 365.456, 254.878, 205.395}, 512, 424};
-  // Depth aligned to the colour camera, whose field of view is 69 x 42 degrees at 16:9 according to
-  // the data sheet.
+  // These numbers are for depth aligned to the colour camera, whose field of view is 69 x 42
+  // degrees at 16:9 according to the data sheet.
   static constexpr Camera realsense{{924, 924, 639.5, 359.5}, 1280, 720, {}, true};
   static constexpr std::string_view registered = "depth registered to the colour camera";
   static constexpr std::array<CameraPreset, 5> presets{

@@ -18,11 +18,11 @@ namespace {
 
 using detail::YamlWords;
 
-constexpr Index kMostPixels = 1 << 20;  // largest number of pixels along one axis
+constexpr Index kMostPixels = 1 << 20;  // the largest number of pixels along one axis
 constexpr std::string_view kWhatItIs =
     "a camera_info YAML of ROS has image_width, image_height and camera_matrix";
 
-/// A calibration that is being read.
+/// The data of a calibration while its file is read.
 class CameraYaml {
  public:
   explicit CameraYaml(const Input& input) : yaml_(input) {}
@@ -150,7 +150,7 @@ class CameraYaml {
     std::vector<double> d = value == nullptr ? std::vector<double>{} : numbers(*value);
     const YamlWords::Value* named = find({"distortion_model"});
     const YamlWords::Value* fisheye = find({"fisheye_model"});
-    // Files of OpenCV do not name the model; a flag or the number of coefficients decides.
+    // Files of OpenCV do not name the model. A flag or the number of coefficients determines it.
     const std::string_view name = named != nullptr ? named->words.front().text
                                   : fisheye != nullptr && number(fisheye->words[0]) != 0 ? "fisheye"
                                   : d.size() >= 8                  ? "rational_polynomial"
@@ -178,8 +178,8 @@ class CameraYaml {
             "plumb_bob, rational_polynomial or equidistant",
             "rectify the image, and take a camera without distortion"});
     }
-    // OpenCV writes up to 14 coefficients, for thin prisms and tilted sensors, which most lenses do
-    // not have.
+    // OpenCV writes up to 14 coefficients. The last coefficients are for thin prisms and tilted
+    // sensors, which most lenses do not have.
     while (d.size() > most && d.back() == 0) d.pop_back();  // mutant: camera-coefficients
     if (d.size() < least || d.size() > most) {
       fail(*value, {fmt::format("coefficients of {}", name),
@@ -238,8 +238,8 @@ void read_members(detail::JsonCursor& json, Camera& camera, bool& has_matrix, bo
     } else if (name == "depth_scale" && json.peek() != 'n') {  // null means that there is no scale
       const std::size_t place = json.place();
       const double found = json.number();
-      // A number below 1 must be metres per unit, as in librealsense: no unit is longer than a
-      // metre, and the number of units per metre is therefore at least 1.
+      // A number below 1 must be in metres per unit, as in librealsense. The reason is that no unit
+      // is longer than a metre, so the number of units per metre is at least 1.
       camera.depth_scale = found < 1 ? 1 / found : found;
       if (!(camera.depth_scale >= 1 && std::isfinite(camera.depth_scale)))
         json.fail(place, {"depth_scale",

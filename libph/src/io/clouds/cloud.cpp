@@ -128,7 +128,8 @@ std::optional<std::vector<std::uint32_t>> Cloud::rgb() const {
   check();
   const auto points = static_cast<std::size_t>(size());
   std::vector<std::uint32_t> result(points);
-  for (const std::string_view name : {"rgba", "rgb"}) {  // packed into an integer or a float
+  // The colour is packed into an integer or a float.
+  for (const std::string_view name : {"rgba", "rgb"}) {
     const CloudField* field = find(name);
     if (field == nullptr || field->count != 1 || size_of(field->type) != 4) continue;
     for (std::size_t i = 0; i < points; ++i) {
@@ -153,7 +154,8 @@ std::optional<std::vector<std::uint32_t>> Cloud::rgb() const {
         for (std::size_t i = 0; i < points; ++i) {
           const auto value = static_cast<double>(
               load<T>(data.data() + i * stride + part->offset, std::endian::native));
-          // 16-bit and floating-point channels (0…1) are converted to 8 bits; NaN becomes 0.
+          // 16-bit channels and floating-point channels (0…1) are converted to 8 bits. NaN becomes
+          // 0.
           const double scaled = std::is_floating_point_v<T> ? value * 255 + 0.5
                                 : sizeof(T) == 2            ? value / 257
                                                             : value;

@@ -8,8 +8,9 @@ namespace ph::detail {
 /// The source of a cloud's rows.
 enum class RowSource { text, pts, array };
 
-/// Makes a cloud with one point per row. The header names the columns; without one, they have the
-/// order of read_xyz or read_pts. The colours of an array may be numbers from 0 to 1.
+/// Makes a cloud with one point per row. The header names the columns. Without a header, the
+/// columns have the order of read_xyz or read_pts. The colours of an array may be numbers from 0 to
+/// 1.
 /// @throws Error (bad_data) on fewer than three columns, on a header without x, y and z, on
 ///         infinite coordinates, and on an input without rows unless options.allow_empty.
 Cloud cloud_of_rows(const TextTable& table, const Input& input, const ReadOptions& options,

@@ -99,7 +99,7 @@ Cloud cloud_of_rows(const TextTable& table, const Input& input, const ReadOption
   const auto is_colour = [](std::string_view name) {
     return name == "red" || name == "green" || name == "blue";
   };
-  // Colours of an array may be shares of full brightness; black is then 0, and white is 1.
+  // Colours of an array may be fractions of full brightness. Black is then 0, and white is 1.
   bool shares = source == RowSource::array;  // mutant: cloud-colours
   for (std::size_t k = 0; k < names.size(); ++k)
     if (is_colour(names[k])) shares = shares && all_in_column(table.rows, k, is_share);
@@ -160,7 +160,8 @@ Cloud read_xyz(const Input& input, const ReadOptions& options) {
   as_points.array = ArrayMeaning::points;
   as_points.columns.clear();
   detail::TableLayout layout = detail::table_layout(input, as_points);
-  // Readers of clouds always take all columns; the notes must not suggest choosing some of them.
+  // Readers of clouds always take all columns. The notes must therefore not suggest choosing some
+  // of them.
   for (Message& note : layout.notes) note = note.without(Setting::columns);
   detail::TextTable table = detail::read_text_table(input, Allow::any, options, false, &layout);
   if (table.header.size() == layout.width && layout.names_rows)

@@ -15,7 +15,8 @@
 namespace ph {
 namespace {
 
-constexpr std::size_t kFlushAt = std::size_t{1} << 16;  // bytes of text written at once
+// The number of bytes of text written at once.
+constexpr std::size_t kFlushAt = std::size_t{1} << 16;
 
 void check_cloud(const Cloud& cloud) {
   cloud.check();
@@ -134,8 +135,8 @@ char pcd_type(FieldType type) {
   return is_signed ? 'I' : 'U';
 }
 
-// The names of the fields, changed so that each is a single word, as a header needs, and no two are
-// equal.
+// The names of the fields, changed as a header needs them: each name is a single word, and no two
+// names are equal.
 // @param padding true if several fields may be named "_", as in PCD.
 std::vector<std::string> header_words(const Cloud& cloud, bool padding) {
   std::vector<std::string> words;
@@ -180,7 +181,7 @@ std::string_view ply_type(FieldType type) {
   throw Error(ErrorKind::bad_data, "cloud: PLY has no 64-bit integers; write PCD");
 }
 
-// The cloud in the form that PLY can express: each field is a single number, and colours are
+// The cloud in the form that PLY can express. Each field is a single number, and colours are
 // separate channels.
 Cloud ply_cloud(const Cloud& cloud) {
   Cloud result = cloud;
@@ -189,7 +190,7 @@ Cloud ply_cloud(const Cloud& cloud) {
     const bool packed = (field.name == "rgb" || field.name == "rgba") && field.count == 1 &&
                         size_of(field.type) == 4;
     if (packed && cloud.find("red") == nullptr) {
-      // little endian: blue first, alpha last
+      // The bytes are in little-endian order, with blue first and alpha last.
       const std::size_t blue = field.offset;
       constexpr bool kLittle = std::endian::native == std::endian::little;
       constexpr std::array<std::string_view, 4> kNames{"blue", "green", "red", "alpha"};

@@ -20,8 +20,8 @@ DepthImage read_depth(const Input& input, const ReadOptions& options) {
     input.fail({"not a depth image", "another format", "a grey PNG, PGM or NPY",
                 "save an image in any other format with numpy.save"});
   }
-  // Readers of pictures accept colours if an option chooses a channel; a depth image has no such
-  // option.
+  // Readers of pictures accept colours if an option chooses a channel, but a depth image has no
+  // option for this.
   const auto read_grey = [&] {
     Raster raster = read_png(input);
     if (raster.channels > 1)
@@ -107,7 +107,7 @@ Cloud cloud_from_depth(const Image& depth, const std::optional<Raster>& colour,
       std::memcpy(record, point.data(), sizeof(point));
       if (!colour) continue;
       const bool grey = colour->channels < 3;
-      std::uint32_t rgba = 0xFF;  // opaque
+      std::uint32_t rgba = 0xFF;  // the colour is opaque
       for (int channel = 0; channel < 3; ++channel) {
         const unsigned sample = colour->at(u, v, grey ? 0 : channel);
         rgba = rgba << 8 | (colour->bits == 16 ? sample >> 8 : sample);

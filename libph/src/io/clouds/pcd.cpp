@@ -48,7 +48,7 @@ void read_binary(const Input& input, PcdHeader& header) {
 // Takes the data of a compressed file field by field, and stores them record by record.
 class Interleaver {
  public:
-  /// @param points number of points, at least 1.
+  /// @param points the number of points, at least 1.
   Interleaver(Cloud& cloud, std::size_t points) : cloud_(cloud), points_(points) { start_field(); }
 
   void take(std::span<const std::byte> bytes) {
@@ -67,7 +67,7 @@ class Interleaver {
     position_ = 0;
   }
 
-  // Takes bytes of the current field; a piece may begin and end inside a point.
+  // Takes bytes of the current field. A piece may begin and end inside a point.
   void put(std::span<const std::byte> bytes) {
     std::byte* record =
         cloud_.data.data() + position_ / width_ * cloud_.stride + cloud_.fields[field_].offset;
@@ -80,7 +80,8 @@ class Interleaver {
       record += cloud_.stride;
     }
     const std::size_t stride = cloud_.stride;
-    if (width_ == 4) {  // the usual case; a copy of constant length is a single move
+    // This is the usual case, and a copy of constant length is a single move.
+    if (width_ == 4) {
       for (; end - from >= 4; from += 4, record += stride) std::memcpy(record, from, 4);
     } else {
       const auto width = static_cast<std::ptrdiff_t>(width_);
@@ -93,8 +94,8 @@ class Interleaver {
   Cloud& cloud_;
   std::size_t points_;
   std::size_t field_ = 0;
-  std::size_t width_ = 0;     // bytes of the field per point
-  std::size_t position_ = 0;  // bytes of the field taken so far
+  std::size_t width_ = 0;     // the number of bytes of the field per point
+  std::size_t position_ = 0;  // the number of bytes of the field taken so far
 };
 
 void read_compressed(const Input& input, PcdHeader& header) {
@@ -154,7 +155,7 @@ void read_ascii(const Input& input, PcdHeader& header) {
   std::size_t cells_a_point = 0;
   for (const CloudField& field : cloud.fields) cells_a_point += field.count;
   const auto cells_in_all = checked_product(header.points, cells_a_point);
-  // A cell takes at least two bytes; the last line may lack a line end.
+  // A cell takes at least two bytes. The last line may lack a line end.
   if (!cells_in_all || *cells_in_all > (input.size() - header.offset + 1) / 2) {
     input.fail({"truncated",
                 fmt::format("{} bytes of data", input.size() - header.offset),

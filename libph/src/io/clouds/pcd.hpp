@@ -9,8 +9,8 @@ struct PcdHeader {
   Cloud cloud;  ///< everything except the data
   std::size_t points = 0;
   std::size_t bytes = 0;   ///< points * stride
-  std::size_t offset = 0;  ///< start of the data in the file
-  std::size_t lines = 0;   ///< lines before the data
+  std::size_t offset = 0;  ///< the start of the data in the file
+  std::size_t lines = 0;   ///< the number of lines before the data
   PcdData data = PcdData::ascii;
 };
 

@@ -28,7 +28,7 @@ std::optional<FieldType> field_type(char type, std::int64_t size) {
   return std::nullopt;
 }
 
-// Reads the header keyword by keyword: each at most once, with DATA last.
+// Reads the header keyword by keyword. Each keyword occurs at most once, and DATA comes last.
 class PcdHeaderParser {
  public:
   explicit PcdHeaderParser(const Input& input)

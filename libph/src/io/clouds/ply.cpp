@@ -15,8 +15,8 @@ namespace {
 
 constexpr std::int64_t kMostInteger = std::numeric_limits<std::int64_t>::max();
 
-// The least number of bytes that a row of an element takes. With it, the stated number of rows is
-// checked before anything is allocated.
+// The least number of bytes that a row of an element takes. It is used to check the stated number
+// of rows before anything is allocated.
 std::size_t least_bytes(const PlyElement& element, bool ascii) {
   std::size_t bytes = 0;
   for (const PlyProperty& property : element.properties) {
@@ -236,7 +236,7 @@ void read_faces(const Input& input, const PlyElement& element, Index vertices, P
   }
 }
 
-// Reads all elements in the order of the file; faces are skipped if `mesh` is null.
+// Reads all elements in the order of the file. Faces are skipped if `mesh` is null.
 Cloud read_elements(const Input& input, const ReadOptions& options, Mesh* mesh) {
   const PlyHeader header = detail::read_ply_header(input);
   PlyBody body(input, header);

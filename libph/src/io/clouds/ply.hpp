@@ -15,7 +15,7 @@ namespace ph::detail {
 struct PlyProperty {
   std::string name;
   FieldType type = FieldType::float32;
-  std::optional<FieldType> length_type;  ///< type of a list's length; a scalar has none
+  std::optional<FieldType> length_type;  ///< the type of a list's length; a scalar has none
 };
 
 struct PlyElement {
@@ -28,14 +28,14 @@ struct PlyHeader {
   bool ascii = false;
   std::endian order = std::endian::little;
   std::vector<PlyElement> elements;
-  std::size_t offset = 0;  ///< start of the data in the file
-  std::size_t lines = 0;   ///< lines before the data
+  std::size_t offset = 0;  ///< the start of the data in the file
+  std::size_t lines = 0;   ///< the number of lines before the data
 };
 
 /// Reads the header of a PLY file. @throws Error (bad_data) if it is invalid.
 PlyHeader read_ply_header(const Input& input);
 
-/// Reads the values after a header, one after the other, as text or binary.
+/// Reads the values after a header one after another, as text or binary.
 class PlyBody {
  public:
   /// Keeps references to the input and the header.
@@ -52,7 +52,7 @@ class PlyBody {
   std::size_t list_length(const PlyProperty& property);
   void skip_list(const PlyProperty& property);
   void skip_element();
-  /// Returns the bytes of several rows at once; for binary files only.
+  /// Returns the bytes of several rows at once. Only for binary files.
   std::span<const std::byte> raw_rows(std::size_t bytes);
   /// Must be called after the last element. @throws Error (bad_data) if more data follow.
   void expect_end();

@@ -12,8 +12,8 @@ namespace {
 
 constexpr std::int64_t kMost = std::int64_t{1} << 40;
 
-/// Keywords in the first line. The coordinates of a vertex may be followed by texture coordinates
-/// (ST), colours (C) and a normal (N), which are ignored.
+/// These keywords may be in the first line. The coordinates of a vertex may be followed by texture
+/// coordinates (ST), colours (C) and a normal (N), which are ignored.
 constexpr std::array<std::string_view, 9> kWords{"OFF",   "COFF",   "NOFF",   "CNOFF",  "NCOFF",
                                                  "STOFF", "STCOFF", "STNOFF", "STCNOFF"};
 constexpr std::size_t kLongest = 7;
@@ -61,7 +61,7 @@ Mesh read_off(const Input& input, const ReadOptions& options) {
   need_cell(lines, cells, "the number of faces");
   const auto faces = static_cast<std::size_t>(cells.integer(0, kMost, "number of faces"));
   if (cells.more()) cells.integer(0, kMost, "number of edges");
-  // A vertex takes at least six bytes ("0 0 0\n"), a face two.
+  // A vertex takes at least six bytes ("0 0 0\n"), and a face takes at least two bytes.
   const std::size_t rest = input.size() - lines.offset() + 1;
   if (vertices > rest / 6 || faces > rest / 2) {
     lines.fail(lines.line().data(), {"truncated: the counts do not fit the file",
@@ -91,7 +91,7 @@ Mesh read_off(const Input& input, const ReadOptions& options) {
       detail::require_growth(input, mesh.corners);
       mesh.corners.push_back(cells.integer(0, static_cast<Index>(vertices) - 1, "vertex"));
     }
-    while (cells.more()) cells.number();  // colours
+    while (cells.more()) cells.number();  // colours are ignored
     mesh.offsets.push_back(mesh.corners.size());
   }
   if (lines.next()) {

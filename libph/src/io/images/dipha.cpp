@@ -11,7 +11,7 @@
 #include "ph/barcode.hpp"
 #include "ph/io/read.hpp"
 
-// All numbers of a DIPHA file have eight bytes, little endian: int64 or float64.
+// All numbers of a DIPHA file have eight bytes. They are int64 or float64, little endian.
 
 namespace ph::detail {
 namespace {
@@ -37,7 +37,7 @@ const char* name_of(DiphaType type) {
   return "";
 }
 
-// A cursor that stands after the header of a file; the type of the file must be `expected`.
+// Returns a cursor after the header of a file. The type of the file must be `expected`.
 BinaryCursor body_of(const Input& input, DiphaType expected) {
   const DiphaType type = dipha_type(input);
   if (type != expected) {
@@ -46,7 +46,7 @@ BinaryCursor body_of(const Input& input, DiphaType expected) {
   return BinaryCursor(input, std::endian::little, kHeader);
 }
 
-// Reads an integer from `least` to `most`; the message names its place.
+// Reads an integer from `least` to `most`. The error message names the place of the integer.
 std::int64_t read_int(BinaryCursor& cursor, std::int64_t least, std::int64_t most,
                       const char* what) {
   const std::size_t at = cursor.offset();
@@ -62,8 +62,8 @@ std::int64_t read_int(BinaryCursor& cursor, std::int64_t least, std::int64_t mos
 
 std::size_t to_size(std::int64_t value) { return static_cast<std::size_t>(value); }
 
-// Reads the number of points. The file must have at least eight bytes per point; a file without
-// points is an error unless options.allow_empty.
+// Reads the number of points. The file must have at least eight bytes per point. A file without
+// points is an error unless options.allow_empty is set.
 std::size_t read_points_count(BinaryCursor& cursor, const ReadOptions& options) {
   const std::size_t count = cursor.read_count("number of points", kWord);
   if (count == 0 && !options.allow_empty) {
@@ -102,7 +102,7 @@ void read_facets(BinaryCursor& cursor, std::size_t cells, BoundaryMatrix& matrix
   for (std::size_t cell = 0; cell < cells; ++cell) {
     const auto first = matrix.rows.begin() + static_cast<std::ptrdiff_t>(matrix.offsets[cell]);
     const auto last = matrix.rows.begin() + static_cast<std::ptrdiff_t>(matrix.offsets[cell + 1]);
-    std::sort(first, last);  // the format does not promise that they are sorted
+    std::sort(first, last);  // the format does not guarantee that facets are sorted
     if (const auto twice = std::adjacent_find(first, last); twice != last) {
       input.fail_at_byte(entries_at + matrix.offsets[cell] * kWord,
                          {fmt::format("facet of cell {} listed twice", cell),
@@ -229,7 +229,7 @@ BoundaryInput read_dipha_boundary(const Input& input, const ReadOptions& options
     input.fail_at_byte(kHeader, {"a dualised matrix", "coboundaries", "boundaries, 0",
                                  "DIPHA's program dualize turns one into the other"});
   }
-  // A cell takes three words: its dimension, its value and its offset.
+  // A cell takes three words, which are its dimension, its value and its offset.
   const std::size_t cells = cursor.read_count("number of cells", 3 * kWord);
   if (cells == 0 && !options.allow_empty) {
     input.fail_at_byte(kHeader + kWord, {"no cells", "0", "at least one",

@@ -14,11 +14,11 @@ namespace ph {
 namespace {
 
 constexpr std::size_t kHeaderSize = 348;
-// Least offset of the voxels: after the header and four bytes for extensions.
+// The least offset of the voxels, which come after the header and four bytes for extensions.
 constexpr std::size_t kFirstVoxel = 352;
 constexpr std::int32_t kNifti2Size = 540;
 
-// Offsets of the fields in the header.
+// The offsets of the fields in the header.
 constexpr std::size_t kDim = 40, kDatatype = 70, kBitpix = 72, kOffset = 108, kSlope = 112,
                       kIntercept = 116, kMagic = 344;
 
@@ -130,8 +130,8 @@ class Header {
   std::endian order_ = std::endian::little;
 };
 
-// Stored numbers become slope * number + intercept. A slope of 0 means unscaled numbers; some
-// programs write NaN instead.
+// Stored numbers become slope * number + intercept. A slope of 0 means unscaled numbers. Some
+// programs write NaN instead of 0.
 void scale(Image& image, const Header& header, const Input& input, const ReadOptions& options) {
   const double slope = double{header.field<float>(kSlope)};
   const double intercept = double{header.field<float>(kIntercept)};
@@ -144,7 +144,8 @@ void scale(Image& image, const Header& header, const Input& input, const ReadOpt
   Voxels stored = std::move(image.values);
   const std::size_t count = stored.size();
   const bool in_file = detail::stays_in_file(input, count * sizeof(double));
-  constexpr std::size_t block = 1 << 20;  // numbers between two polls of the stop token
+  // The number of values between two polls of the stop token.
+  constexpr std::size_t block = 1 << 20;
   const auto scale_into = [&](const auto* from, double* to) {
     for (std::size_t k = 0; k < count;) {
       input.poll(input.size());
@@ -167,8 +168,8 @@ void scale(Image& image, const Header& header, const Input& input, const ReadOpt
       });
       return stored;
     }
-    // The stored numbers and the scaled ones exist at the same time, and the stored ones are not
-    // counted in any budget.
+    // The stored numbers and the scaled numbers exist at the same time, and the stored numbers are
+    // not counted in any budget.
     input.require_memory(count * (sizeof(T) + sizeof(double)));
     std::vector<double> scaled(count);
     scale_into(from, scaled.data());

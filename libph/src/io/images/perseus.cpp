@@ -14,11 +14,11 @@ namespace {
 
 constexpr std::int64_t kMostAxes = 16;
 constexpr std::int64_t kMostExtent = std::int64_t{1} << 40;
-// The cubes of a list may span a grid of at most this many voxels per cube, or of at most
-// kFreeVoxels voxels, whichever is more.
+// The grid of a list of cubes may have at most this many voxels per cube, or at most kFreeVoxels
+// voxels, whichever is more.
 constexpr std::size_t kMostVoxelsPerCube = 1024;
 constexpr std::size_t kFreeVoxels = std::size_t{1} << 20;
-// Marks a voxel as absent, see Image::masked.
+// Marks a voxel as absent (see Image::masked).
 constexpr double kAbsent = std::numeric_limits<double>::quiet_NaN();
 
 // Reads the cells of a text one after another, regardless of line ends.
@@ -51,7 +51,7 @@ class CellStream {
 }
 
 // Decides the meaning of the value -1. In Perseus, values are positive integers, and -1 means a
-// cube that never enters. In GUDHI, a value may be any number, and -1 is an ordinary one. The
+// cube that never enters. In GUDHI, a value may be any number, and -1 is an ordinary value. The
 // meaning of Perseus applies if all other values are positive integers.
 void take_missing_cubes(std::vector<double>& values, const ReadOptions& options) {
   std::ranges::replace(values, kInfinity, kAbsent);
@@ -107,10 +107,11 @@ PerseusImage read_dense(TextLines& lines, std::size_t axes) {
   return result;
 }
 
-// Reads one cube per line: its coordinates, then its value. The current line is the first cube.
+// Reads one cube per line, as its coordinates and then its value. The current line is the first
+// cube.
 PerseusImage read_sparse_cubes(TextLines& lines, std::size_t axes) {
   struct Cubes {
-    std::vector<Index> at;  // one coordinate per axis and cube
+    std::vector<Index> at;  // for each cube, one coordinate per axis
     std::vector<double> values;
     std::vector<std::size_t> lines;
   } cubes;

@@ -8,9 +8,10 @@ namespace ph::detail {
 namespace {
 
 constexpr std::size_t kMostGrey = 65535;
-constexpr std::size_t kPollMask = 0xFFFFF;  // pixels between two polls of the stop token, less one
+// The number of pixels between two polls of the stop token, minus one.
+constexpr std::size_t kPollMask = 0xFFFFF;
 
-// Reads the numbers of a PGM as text: digits between blanks and comments.
+// Reads the numbers of a PGM as text. They are digits between blanks and comments.
 class Numbers {
  public:
   Numbers(const Input& input, std::size_t offset) : input_(input), at_(offset) {}
@@ -91,7 +92,7 @@ Image read_pgm_image(const Input& input) {
   const std::size_t height = numbers.next("height", 1, kMostSide, true);
   const std::size_t most = numbers.next("largest grey value", 1, kMostGrey, true);
   const std::size_t bytes_each = most > 255 ? 2 : 1;
-  // One blank ends the header of P5. In P2 a pixel takes at least a digit and a blank.
+  // One blank ends the header of P5. In P2, a pixel takes at least a digit and a blank.
   const std::size_t begin = std::min(numbers.offset() + 1, input.size());
   const std::size_t count = width * height;  // the product is at most 2^62
   const std::size_t there = input.size() - begin;

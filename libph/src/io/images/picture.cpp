@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Makes one number per pixel from a PNG, which may have up to four.
+// Makes one number per pixel from a PNG, whose pixels may have up to four numbers.
 #include <fmt/format.h>
 
 #include <array>
@@ -12,14 +12,15 @@ namespace {
 
 constexpr std::array<std::string_view, 5> kKinds{"", "grey", "grey + alpha", "RGB", "RGB + alpha"};
 
-// Luma as in ITU-R BT.601, rounded to the nearest integer, halves up.
+// Computes luma as in ITU-R BT.601. It is rounded to the nearest integer, and halves are rounded
+// up.
 std::uint16_t luma(const std::uint16_t* pixel) {
   // mutant: picture-luma
   return static_cast<std::uint16_t>((299U * pixel[0] + 587U * pixel[1] + 114U * pixel[2] + 500U) /
                                     1000U);
 }
 
-// True if all pixels are grey and opaque: colours and opacity then add nothing.
+// True if all pixels are grey and opaque, so that colours and opacity add nothing.
 bool is_grey(const Raster& raster) {
   const auto channels = static_cast<std::size_t>(raster.channels);
   const bool has_alpha = channels % 2 == 0;
@@ -32,8 +33,8 @@ bool is_grey(const Raster& raster) {
   return true;
 }
 
-// Position of a channel among the samples of a pixel; nothing if the grey value is computed from
-// three samples.
+// The position of a channel among the samples of a pixel. Returns nothing if the grey value is
+// computed from three samples.
 std::optional<std::size_t> place_of(Channel channel, const Raster& raster, const Input& input) {
   const auto channels = static_cast<std::size_t>(raster.channels);
   const bool has_colours = channels >= 3, has_alpha = channels % 2 == 0;

@@ -16,9 +16,10 @@ namespace ph {
 namespace {
 
 constexpr png_uint_32 kMaxSide = 65535;
-// Largest size of an ancillary chunk in bytes.
+// The largest size of an ancillary chunk, in bytes.
 constexpr std::size_t kMaxChunk = std::size_t{8} << 20;
-// Deflate cannot expand data by a larger factor: a small file that claims more is refused.
+// Deflate cannot expand data by a larger factor. A small file that claims a larger factor is
+// refused.
 constexpr std::size_t kMaxExpansion = 1032;
 
 struct Source {
@@ -45,8 +46,8 @@ extern "C" {
   png_longjmp(png, 1);
 }
 
-// libpng reports a lack of memory with the same messages as damaged data; `out_of_memory` tells
-// them apart.
+// The error messages of libpng are the same for lack of memory and for damaged data. The member
+// `out_of_memory` distinguishes the two cases.
 static void* png_allocate(png_structp png, std::size_t size) {
   void* const memory = std::malloc(size);
   if (memory == nullptr) static_cast<Report*>(png_get_mem_ptr(png))->out_of_memory = true;
@@ -68,7 +69,7 @@ static void png_put(png_structp png, png_bytep from, std::size_t size) {
   auto* out = static_cast<std::ostream*>(png_get_io_ptr(png));
   try {
     out->write(reinterpret_cast<const char*>(from), static_cast<std::streamsize>(size));
-  } catch (const std::bad_alloc&) {  // an exception of the stream must not pass through C
+  } catch (const std::bad_alloc&) {  // an exception of the stream must not pass through C code
     static_cast<Report*>(png_get_error_ptr(png))->out_of_memory = true;
   } catch (...) {  // the stream's bad bit is checked below
   }
@@ -91,7 +92,8 @@ struct Writer {
   ~Writer() { png_destroy_write_struct(&png, &info); }
 };
 
-// libpng trusts the length of a chunk, and allocates before it reads.
+// Checks the lengths of chunks, because libpng trusts the length of a chunk, and allocates memory
+// before it reads.
 void require_chunks(const Input& input) {
   constexpr std::size_t kSignature = 8, kChecksum = 4;
   BinaryCursor cursor(input, std::endian::big, kSignature);

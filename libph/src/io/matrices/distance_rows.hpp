@@ -2,34 +2,35 @@
 #pragma once
 #include "libph/src/io/matrices/matrix_entry.hpp"
 
-// Code shared by square matrices and triangles of distances.
+// This header contains code shared by square matrices and triangles of distances.
 
 namespace ph::detail {
 
-/// n (n - 1) / 2: the number of pairs of n points, and the position of d(n, 0) among them.
+/// Returns n (n - 1) / 2, which is the number of pairs of n points, and the position of d(n, 0)
+/// among them.
 constexpr std::size_t triangle(std::size_t n) {
   return n % 2 == 0 ? n / 2 * (n - 1) : (n - 1) / 2 * n;
 }
 
-/// A matrix without points, or an error, depending on options.allow_empty.
+/// Depending on options.allow_empty, returns a matrix without points or throws an error.
 DistanceMatrix no_points(const Input& input, const ReadOptions& options);
 
 /// Allocates memory for the distances of all pairs of n points, after checking that the input is
-/// long enough for `cells` cells; a cell may be empty, but takes at least one byte with its
+/// long enough for `cells` cells. A cell may be empty, but takes at least one byte with its
 /// separator.
-/// @param first number of cells in the first row. @param cells absent if the number exceeds 64
+/// @param first the number of cells in the first row. @param cells absent if the number exceeds 64
 /// bits.
 std::vector<double> make_triangle(const Input& input, std::size_t n, std::size_t first,
                                   std::optional<std::size_t> cells, const ReadOptions& options);
 
-/// Text for a message: the option that asked for a square matrix, and a possible cause of the
-/// problem.
+/// The text for an error message that names the option that asked for a square matrix, and a
+/// possible cause of the problem.
 std::string why_square(const ReadOptions& options);
 
 [[noreturn]] void fail_row(const TextLines& lines, std::size_t row, std::size_t found,
                            std::size_t expected, std::string_view hint = {});
 
-/// Reads entries of a text matrix, checking each one at its place.
+/// Reads entries of a text matrix, and checks each entry at its place.
 class TextEntries {
  public:
   /// @param separator the character between two cells, as for Cells.
@@ -49,7 +50,7 @@ class TextEntries {
   double merged(double upper, double lower, const EntryPlace& place) {
     return entries_.merged(upper, lower, place);
   }
-  /// Must be called after the last entry; see MatrixEntries::finish.
+  /// Must be called after the last entry (see MatrixEntries::finish).
   void finish() const;
 
  private:

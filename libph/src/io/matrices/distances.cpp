@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Square matrices of distances, as text and as arrays.
+// Reads square matrices of distances, as text and as arrays.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -15,7 +15,7 @@ namespace {
 using detail::EntryPlace;
 using detail::triangle;
 
-// Checks that the rows are named in the same order as the columns; otherwise the entries would
+// Checks that the rows are named in the same order as the columns. Otherwise the entries would
 // belong to other pairs.
 class RowNames {
  public:

@@ -29,7 +29,8 @@ void MatrixEntries::doubt(Kind kind, const Doubt& doubt) {
 
 double MatrixEntries::rounding() const {
   // mutant: matrix-rounding
-  return kRounding * (options_.from_correlation ? 1 : largest_);  // the rounding of r, not of 1 - r
+  // This is the rounding of r, not of 1 - r.
+  return kRounding * (options_.from_correlation ? 1 : largest_);
 }
 
 Fault MatrixEntries::fault_of(double raw, bool on_diagonal) const {

@@ -11,7 +11,7 @@ namespace ph::detail {
 /// The place of a number in a matrix.
 struct EntryPlace {
   std::size_t row = 0, column = 0;
-  std::size_t byte = 0;  ///< offset in the input; 0 if the numbers were unpacked first
+  std::size_t byte = 0;  ///< the offset in the input; 0 if the numbers were unpacked first
 };
 
 /// Converts the numbers of a matrix to distances. A number on the diagonal, a negative number, or
@@ -21,14 +21,14 @@ class MatrixEntries {
  public:
   explicit MatrixEntries(const ReadOptions& options) : options_(options) {}
 
-  /// The distance for a number: 1 - r for a correlation, +infinity for NaN, and 0 for negative
-  /// numbers, which finish() checks. Calls `fail(fault)`, which does not return, if the number can
-  /// never be valid.
+  /// The distance for a number. The distance is 1 - r for a correlation r, +infinity for NaN, and 0
+  /// for negative numbers, which finish() checks. Calls `fail(fault)`, which does not return, if
+  /// the number can never be valid.
   template <class Fail>
   double distance(double raw, const EntryPlace& place, Fail&& fail) {
     const bool on_diagonal = place.row == place.column;
     // mutant: guess-sparse
-    if (raw >= 0 && !options_.from_correlation && !on_diagonal) {  // the usual case
+    if (raw >= 0 && !options_.from_correlation && !on_diagonal) {  // this is the usual case
       look_at(raw);
       return raw;
     }
@@ -39,8 +39,8 @@ class MatrixEntries {
   /// entry.
   double merged(double upper, double lower, const EntryPlace& place);
 
-  /// Must be called after the last number. If a number is wrong by more than rounding explains,
-  /// calls `fail(place, fault)`, which throws; otherwise notes the numbers that were taken as 0.
+  /// Must be called after the last number. If rounding does not explain the error of a number,
+  /// calls `fail(place, fault)`, which throws. Otherwise notes the numbers that were taken as 0.
   void finish(const std::function<void(const EntryPlace&, const Fault&)>& fail) const;
 
  private:

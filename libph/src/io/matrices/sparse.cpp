@@ -14,8 +14,8 @@ namespace ph {
 namespace {
 
 constexpr std::int64_t kMostPoints = std::int64_t{1} << 31;
-// Every number up to the largest id is a point. The points may be at most kMostPointsPerPair times
-// as many as the pairs, or kFreePoints, whichever is more.
+// Every number up to the largest id is a point. The number of points may be at most
+// kMostPointsPerPair times the number of pairs, or kFreePoints, whichever is more.
 constexpr Index kMostPointsPerPair = 1024;
 constexpr Index kFreePoints = Index{1} << 20;
 

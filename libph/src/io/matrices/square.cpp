@@ -10,7 +10,8 @@
 namespace ph::detail {
 namespace {
 
-constexpr double kLittle = 0.01;  // allowed difference between correlations that should be equal
+// The allowed difference between correlations that should be equal.
+constexpr double kLittle = 0.01;
 
 }  // namespace
 
@@ -20,8 +21,8 @@ SquareKind kind_of_square(std::span<const double> block, std::size_t side) {
     if (std::isfinite(value)) largest = std::max(largest, std::abs(value));
   const double rounding = kRounding * largest;
   bool positive = true, in_one = true;
-  double most_apart = 0;   // largest difference between the entries of a pair
-  std::size_t uneven = 0;  // number of entries that differ from their mirror image
+  double most_apart = 0;   // the largest difference between the entries of a pair
+  std::size_t uneven = 0;  // the number of entries that differ from their mirror image
   for (std::size_t i = 0; i < side; ++i) {
     for (std::size_t j = 0; j < side; ++j) {
       const double value = block[i * side + j], other = block[j * side + i];

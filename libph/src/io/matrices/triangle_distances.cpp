@@ -15,7 +15,7 @@ using detail::fail_row;
 using detail::TextEntries;
 using detail::triangle;
 
-// The n with n (n - 1) / 2 == pairs, if there is one.
+// The n with n (n - 1) / 2 == pairs, if such a number exists.
 std::optional<std::size_t> points_of_pairs(std::size_t pairs) {
   const auto root = std::sqrt(8.0 * static_cast<double>(pairs) + 1.0);
   const auto guess = static_cast<std::size_t>((1.0 + root) / 2.0);
@@ -25,7 +25,7 @@ std::optional<std::size_t> points_of_pairs(std::size_t pairs) {
   return std::nullopt;
 }
 
-// Moves to the first row of the triangle, and skips a header, which is a row of names here. @return
+// Moves to the first row of the triangle, and skips a header, which is a row of names. @return
 // false if the input has no data.
 bool first_row(TextLines& lines, const ReadOptions& options) {
   if (!lines.next()) return false;
@@ -58,7 +58,7 @@ DistanceMatrix from_one_line(const TextLines& lines, std::size_t line, std::vect
   return DistanceMatrix(static_cast<Index>(n), std::move(values));
 }
 
-// Reads the rows of the lower triangle after the first one, which has one cell.
+// Reads the rows of the lower triangle after the first row, which has one cell.
 DistanceMatrix read_lower_rows(TextLines& lines, TextEntries& entries, std::vector<double> values,
                                const ReadOptions& options) {
   std::size_t n = 2;
@@ -85,7 +85,7 @@ DistanceMatrix read_lower_rows(TextLines& lines, TextEntries& entries, std::vect
   return DistanceMatrix(static_cast<Index>(n), std::move(values));
 }
 
-// Reads the rows of the upper triangle after the first one: each becomes a column of the lower
+// Reads the rows of the upper triangle after the first row. Each row becomes a column of the lower
 // triangle.
 DistanceMatrix read_upper_rows(TextLines& lines, TextEntries& entries,
                                const std::vector<double>& first, const ReadOptions& options) {
@@ -120,7 +120,8 @@ DistanceMatrix read_triangle(const Input& input, const ReadOptions& options, boo
   if (!first_row(lines, options)) return detail::no_points(input, options);
   TextEntries entries(lines, options);
   std::vector<double> first;
-  if (lower) {  // reserves as many pairs as the lines suggest, but no more than the bytes can hold
+  // This reserves as many pairs as the lines suggest, but no more than the bytes can hold.
+  if (lower) {
     const std::string_view text = input.text();
     const auto rows = static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')) + 2;
     const std::size_t most = std::min(triangle(std::min(rows, text.size() + 2)), text.size() + 1);

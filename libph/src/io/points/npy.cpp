@@ -20,10 +20,10 @@ struct Header {
   std::string descr;
   bool fortran_order = false;
   std::vector<Index> shape;
-  std::size_t offset = 0;  // start of the data
+  std::size_t offset = 0;  // the start of the data
 };
 
-// Reads a header: a Python dictionary with three known keys.
+// Reads a header, which is a Python dictionary with three known keys.
 class HeaderParser {
  public:
   HeaderParser(const Input& input, std::size_t begin, std::size_t end)
@@ -209,8 +209,8 @@ std::string place_of(std::size_t voxel, const std::vector<Index>& extents) {
   return fmt::format("{}", fmt::join(place, ", "));
 }
 
-// Calls `use(begin, end)` for blocks of the numbers; afterwards, the pages of a block may leave the
-// memory.
+// Calls `use(begin, end)` for blocks of the numbers. After each call, the pages of the block may
+// leave the memory.
 template <class T, class Use>
 void for_each_block(std::span<const T> all, bool in_file, const Input& input, Use&& use) {
   constexpr std::size_t block = 1 << 20;
@@ -280,7 +280,7 @@ void write_npy(std::ostream& out, std::span<const std::uint32_t> labels, Index w
       height > 1 ? fmt::format("({}, {})", height, width) : fmt::format("({},)", width);
   std::string header =
       fmt::format("{{'descr': '<u4', 'fortran_order': False, 'shape': {}, }}", shape);
-  // The data start at a multiple of 64; the header ends in a line feed.
+  // The data start at a multiple of 64. The header ends in a line feed.
   const std::size_t before = kMagic.size() + 4;
   header.resize((before + header.size() + 1 + 63) / 64 * 64 - before - 1, ' ');
   header += '\n';

@@ -11,7 +11,7 @@
 namespace ph {
 
 void write_npy_header(OutputFile& file, std::span<const std::size_t> shape) {
-  // The file begins with a magic number, a version and the length of the header; the header ends in
+  // The file begins with a magic number, a version and the length of the header. The header ends in
   // a newline at a multiple of 64 bytes.
   std::string extents;
   for (const std::size_t n : shape) extents += fmt::format("{}{}", extents.empty() ? "" : ", ", n);

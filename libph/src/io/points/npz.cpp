@@ -8,7 +8,7 @@
 #include "libph/src/io/bytes/unpack.hpp"
 
 // An NPZ is a zip archive of NPY files. The central directory at the end of the file lists the
-// members; local headers are only used to find the data.
+// members. Local headers are used only to find the data.
 
 namespace ph::detail {
 namespace {
@@ -19,12 +19,13 @@ constexpr std::string_view kEnd{"PK\x05\x06", 4};
 constexpr std::size_t kEndSize = 22, kMostComment = 65535;
 constexpr std::size_t kLocalSize = 30;
 constexpr std::uint32_t kIn64 = 0xFFFFFFFF;  // the number is in the zip64 record
-constexpr std::uint16_t kZip64 = 1;          // id of the zip64 record
+constexpr std::uint16_t kZip64 = 1;          // the id of the zip64 record
 constexpr std::uint16_t kStored = 0, kDeflated = 8;
 
 struct Member {
   std::string name;
-  std::size_t header_at = 0;  // position of its record in the central directory
+  // The position of the member's record in the central directory.
+  std::size_t header_at = 0;
   std::uint16_t flags = 0, method = 0;
   std::uint32_t crc = 0;
   std::size_t packed = 0, size = 0, local_at = 0;
@@ -45,8 +46,8 @@ void expect_signature(BinaryCursor& cursor, std::string_view signature, const ch
   }
 }
 
-// Reads the sizes and the offset that need more than 32 bits. The record contains only these, in
-// the order of the loop below.
+// Reads the sizes and the offset that need more than 32 bits. The record contains only these
+// numbers, in the order of the loop below.
 void read_zip64(BinaryCursor extra, std::size_t end, Member& member) {
   while (extra.offset() + 4 <= end) {
     const auto id = extra.read<std::uint16_t>("extra field");

@@ -50,11 +50,11 @@ bool begins_with_digits(const Input& input) {
          lines.line().find_first_not_of("0123456789\",; \t") == std::string_view::npos;
 }
 
-// Adds a note if the first column may be an index, or the first row a header, that was read as
-// data.
+// Adds a note if the first column may be an index, or the first row may be a header, but was read
+// as data.
 void tell_of_counts(const Input& input, const detail::TableLayout& layout, PointsView rows,
                     const ReadOptions& options) {
-  constexpr Index kFewest = 8;  // this many rows hardly count by chance
+  constexpr Index kFewest = 8;  // so many rows rarely count by chance
   if (!options.columns.empty()) return;
   const bool is_image = options.array == ArrayMeaning::image;
   const bool has_name = !layout.header.empty() && layout.header.size() == layout.width;
@@ -148,8 +148,8 @@ TextTable read_text_table(const Input& input, Allow allow, const ReadOptions& op
   const auto columns = static_cast<std::size_t>(std::ranges::count(taken, true));
 
   // There are at most as many rows as lines. A cell may be empty, but it takes one byte with its
-  // separator or the line end; a row therefore takes at least one byte per cell. Whatever the file
-  // contains, the table takes at most eight times the size of the file.
+  // separator or the line end. A row therefore takes at least one byte per cell. For any content of
+  // the file, the table takes at most eight times the size of the file.
   const std::string_view rest = input.text().substr(lines.offset());
   const std::size_t by_lines =
       static_cast<std::size_t>(std::count(rest.begin(), rest.end(), '\n')) + 2;
@@ -262,7 +262,8 @@ Points read_points(const Input& input, const ReadOptions& options) {
     input.require_memory(array.values.bytes() + array.values.size() * sizeof(double));
     points = Points(array.extents[0], array.extents[1]);
     with_voxels(array.values.type(), array.values.data(), [&](const auto* numbers) {
-      constexpr std::size_t block = 1 << 16;  // numbers between two polls of the stop token
+      // The number of values between two polls of the stop token.
+      constexpr std::size_t block = 1 << 16;
       for (std::size_t k = 0; k < array.values.size(); k += block) {
         input.poll(input.size());
         const std::size_t count = std::min(block, array.values.size() - k);

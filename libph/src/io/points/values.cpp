@@ -109,8 +109,7 @@ std::vector<double> read_values(const Input& input, std::size_t count, const Rea
                                 std::string_view owner) {
   const bool is_array = detail::is_npy(input) || detail::is_npz(input);
   const bool is_ply = detail::is_ply(input);
-  // The bytes of a few doubles may contain no control characters, but they are hardly ever valid
-  // UTF-8.
+  // The bytes of a few doubles may contain no control characters, but they are rarely valid UTF-8.
   const bool may_be_raw = input.size() == count * sizeof(double) && !is_utf8(input.text());
   const bool is_raw = !is_array && !is_ply && (may_be_raw || !detail::is_text(input.text()));
   std::vector<double> values = is_array ? of_array(input, owner)
@@ -124,7 +123,7 @@ std::vector<double> read_values(const Input& input, std::size_t count, const Rea
       if (is_raw) input.fail_at_byte(k * sizeof(double), fault);
       input.fail(fault);
     }
-    values[k] += 0.0;  // turns -0.0 into +0.0
+    values[k] += 0.0;  // the sum turns -0.0 into +0.0
   }
   return values;
 }

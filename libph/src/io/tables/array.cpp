@@ -13,7 +13,7 @@
 namespace ph::detail {
 namespace {
 
-// The number of elements between two polls of the stop token, less one.
+// The number of elements between two polls of the stop token, minus one.
 constexpr std::size_t kPollMask = 0xFFFFF;
 
 double half_to_double(std::uint16_t bits) {
@@ -32,12 +32,12 @@ double element(const std::byte* from, std::endian order, bool& exact) {
   const T value = load<T>(from, order);
   const auto result = static_cast<double>(value);
   if constexpr (std::is_integral_v<T> && sizeof(T) == 8) {
-    // The largest values of int64 and uint64 become 2^63 and 2^64, which lie outside the range of
-    // the type: such a value is never exact.
+    // The largest values of int64 and uint64 become 2^63 and 2^64, which are outside the range of
+    // the type. The converted value is therefore never exact.
     const bool in_range = result < std::ldexp(1.0, std::is_signed_v<T> ? 63 : 64);
     exact = in_range && static_cast<T>(result) == value;
   }
-  return result + 0.0;  // turns -0.0 into +0.0
+  return result + 0.0;  // the sum turns -0.0 into +0.0
 }
 double half(const std::byte* from, std::endian order, bool&) {
   return half_to_double(load<std::uint16_t>(from, order)) + 0.0;
@@ -84,8 +84,8 @@ std::size_t count_elements(const Input& input, const ArrayLayout& layout,
 namespace {
 
 // Polls the stop token from time to time. If numbers are read from one file and written to another,
-// it also removes all pages of both files from memory: if the order of the axes changes, the pages
-// in use may be anywhere.
+// the class also removes all pages of both files from memory. It removes all pages because the
+// pages in use may be anywhere if the order of the axes changes.
 class Watch {
  public:
   Watch(const Input& input, std::span<const std::byte> to, bool in_file)
@@ -116,7 +116,8 @@ bool is_as_in_memory(const ArrayLayout& layout, const std::vector<Index>& extent
 
 template <class T>
 std::vector<T> copy_array(const Input& input, std::size_t offset, std::size_t count) {
-  constexpr std::size_t block = 1 << 14;  // a block stays in the cache between copying and the loop
+  // A block stays in the cache between copying and the loop.
+  constexpr std::size_t block = 1 << 14;
   const std::byte* bytes = input.bytes().data() + offset;
   std::vector<T> values;
   values.reserve(count);
@@ -127,7 +128,7 @@ std::vector<T> copy_array(const Input& input, std::size_t offset, std::size_t co
     values.resize(k + size);
     std::memcpy(values.data() + k, bytes + k * sizeof(T), size * sizeof(T));
     if constexpr (std::is_floating_point_v<T>)
-      for (std::size_t i = k; i < k + size; ++i) values[i] += 0;  // turns -0.0 into +0.0
+      for (std::size_t i = k; i < k + size; ++i) values[i] += 0;  // the sum turns -0.0 into +0.0
   }
   return values;
 }
@@ -162,8 +163,8 @@ void convert_array(const Input& input, const ArrayLayout& layout, const std::vec
     }
     return;
   }
-  // The first and the last axis are swapped in tiles that fit a few cache lines; the axes between
-  // them keep the file's order.
+  // The first and the last axis are swapped in tiles that fit into a few cache lines. The axes
+  // between them keep the file's order.
   constexpr std::size_t tile = 8;
   const auto first = static_cast<std::size_t>(extents.front());
   const auto last = static_cast<std::size_t>(extents.back());

@@ -22,9 +22,9 @@ bool is_whole(std::string_view text) {
   return !text.empty() && text.find_first_not_of("0123456789") == std::string_view::npos;
 }
 
-// The cells of a header whose first cell is empty, as in a table with named rows; empty if the line
-// is not such a header. The names may be integers if these number the columns, or if the next line
-// begins with a name or with the first of these integers.
+// The cells of a header whose first cell is empty, as in a table with named rows. Returns no cells
+// if the line is not such a header. The names may be integers if these integers number the columns,
+// or if the next line begins with a name or with the first of these integers.
 std::vector<std::string> unnamed_header(std::string_view line, std::string_view first_of_next) {
   if (!begins_empty(line) && !line.starts_with("\"\"")) return {};
   std::vector<std::string> names = header_cells(line, false, true);
@@ -52,8 +52,8 @@ bool is_name_of_index(std::string_view name) {
 // Describes the first column of a table.
 struct FirstColumn {
   std::size_t rows = 0;
-  bool counts = true;         // 0, 1, 2, … or 1, 2, 3, …
-  bool names_columns = true;  // row k begins with the name of column k
+  bool counts = true;         // true for 0, 1, 2, … or 1, 2, 3, …
+  bool names_columns = true;  // true if row k begins with the name of column k
 };
 
 // Looks at the first column of the first `most` rows.
@@ -86,8 +86,8 @@ std::vector<std::size_t> range(std::size_t begin, std::size_t end) {
   return all;
 }
 
-// The cells of a line 0, 1, 2, … or 1, 2, 3, …, which may number the columns; nothing for any other
-// line.
+// The cells of a line 0, 1, 2, … or 1, 2, 3, …, which may number the columns. Returns nothing for
+// any other line.
 std::vector<std::string> counting_header(const TextLines& line) {
   std::vector<std::string> names;
   Cells cells(line);
@@ -99,8 +99,8 @@ std::vector<std::string> counting_header(const TextLines& line) {
   return names;
 }
 
-// Removes a header 0, 1, 2, … (or 1, 2, 3, …) or such an index column, which could be mistaken for
-// data, if a square matrix remains without it.
+// Removes a header or an index column that consists of the numbers 0, 1, 2, … (or 1, 2, 3, …), if a
+// square matrix remains without it. These numbers could be mistaken for data.
 void leave_counts_out(const Input& input, const TextLines& first, const ReadOptions& options,
                       TableLayout& layout) {
   const auto is_matrix = [&](const TableLayout& rest) {
@@ -130,7 +130,7 @@ void leave_counts_out(const Input& input, const TextLines& first, const ReadOpti
   }
 }
 
-// Number of cells in the first row. An empty last cell counts, as a missing value, if the header
+// The number of cells in the first row. An empty last cell counts as a missing value if the header
 // has a name for it or if one of the next rows has a cell there.
 std::size_t width_of(const TextLines& row, const TableLayout& layout) {
   const std::size_t count = count_cells(row, layout.separator);
@@ -142,8 +142,8 @@ std::size_t width_of(const TextLines& row, const TableLayout& layout) {
   return count + (cells == count + 1 ? 1 : 0);
 }
 
-// Advice to read the first column as well. Empty for a square matrix, which would not be square
-// with it.
+// Advice to read the first column as well. The text is empty for a square matrix, which would not
+// be square with this column.
 std::string way_to_take_it(const Input& input, const TableLayout& layout) {
   TableLayout rest = layout;
   rest.columns = range(1, layout.width);
@@ -161,7 +161,7 @@ std::string_view first_cell(const TextLines& line, const TableLayout& layout) {
   return cells.more() ? cells.skip() : std::string_view();
 }
 
-// True if blanks separate numbers in a line: in the entire line, or between two tabs.
+// True if blanks separate numbers in the entire line or between two tabs.
 bool has_blanks_between_numbers(std::string_view line) {
   const bool has_tabs = separator_in(line) == '\t';
   return std::ranges::any_of(
@@ -172,8 +172,8 @@ bool has_blanks_between_numbers(std::string_view line) {
       });
 }
 
-// True if each tab separates two cells. If blanks separate numbers as well, tabs separate cells
-// only if a header and the first row have the same number of cells between tabs.
+// True if each tab separates two cells. If blanks also separate numbers, tabs separate cells only
+// if a header and the first row have the same number of cells between tabs.
 bool has_tabs_between_cells(const Input& input) {
   TextLines lines(input);
   lines.keep_tabs();
@@ -191,9 +191,9 @@ bool has_tabs_between_cells(const Input& input) {
   return fit || std::ranges::none_of(rows, has_blanks_between_numbers);
 }
 
-// True if --columns contains a cell of this line that is not the number of a column: the line is
-// then a header. A user who counts columns from 0 may have written 0 by mistake; it is taken as a
-// name only if the line is 0, 1, 2, … and the next line has a cell that is not a whole number.
+// True if --columns contains a cell of this line that is not the number of a column. The line is
+// then a header. A user who counts columns from 0 may have written 0 by mistake. The 0 is taken as
+// a name only if the line is 0, 1, 2, … and the next line has a cell that is not a whole number.
 bool asks_for_names(const ReadOptions& options, const std::vector<std::string>& names,
                     const std::vector<std::string>& next) {
   bool may_be_0 = !std::ranges::all_of(next, is_whole);
@@ -207,9 +207,9 @@ bool asks_for_names(const ReadOptions& options, const std::vector<std::string>& 
   });
 }
 
-// True if the first line may be a header whose names are integers, such as years. In such a header,
-// the columns that are read have integers, while a column that is not read has a name; the next
-// line has fractions in the columns that are read.
+// True if the first line may be a header whose names are integers, such as years. In this kind of
+// header, the columns that are read have integers, while a column that is not read has a name. The
+// next line has fractions in the columns that are read.
 bool may_be_names(const TextLines& first, const TextLines& next, const TableLayout& layout) {
   const std::vector<bool> taken = layout.taken();
   const auto looks = [&](const TextLines& line) {
@@ -226,12 +226,13 @@ bool may_be_names(const TextLines& first, const TextLines& next, const TableLayo
   return looks(first) == std::pair(true, true) && !looks(next).second;
 }
 
-// True if the first column is left out because it contains the names or the numbers of the rows; a
+// True if the first column is left out because it contains the names or the numbers of the rows. A
 // note gives the reason.
 bool leads_with_names(const Input& input, TableLayout& layout, std::string_view first_cell) {
   if (layout.width < 2) return false;
   const bool is_full = layout.header.size() == layout.width;
-  const bool is_one_short = layout.header.size() + 1 == layout.width;  // as R writes a header
+  // R writes headers in this way.
+  const bool is_one_short = layout.header.size() + 1 == layout.width;
   if (is_full && layout.header[0].empty()) {
     const bool is_one = layout.unnamed() == 1;
     layout.notes.push_back(
@@ -326,7 +327,8 @@ TableLayout table_layout(const Input& input, const ReadOptions& options) {
     leave_counts_out(input, lines, options, layout);
   if (!options.columns.empty()) {
     std::vector<std::string> names = layout.header;
-    if (names.size() + 1 == layout.width) names.insert(names.begin(), "");  // as R writes a header
+    // R writes headers in this way.
+    if (names.size() + 1 == layout.width) names.insert(names.begin(), "");
     if (names.size() != layout.width) names.clear();
     layout.columns = chosen_columns(options.columns, names, layout.width, input);
     if (!has_header && has_next && may_be_names(lines, next, layout))

@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::size_t kShownNames = 10;
 
-// True if a cell was meant as a number; then the line is not a header.
+// True if a cell was meant as a number. The line is then not a header.
 bool looks_numeric(std::string_view cell) {
   for (const std::string_view word : {"nan", "inf", "infinity"}) {
     const std::size_t sign = !cell.empty() && (cell[0] == '-' || cell[0] == '+') ? 1 : 0;
@@ -30,7 +30,7 @@ bool looks_numeric(std::string_view cell) {
   return cell.empty() || (cell[0] >= '0' && cell[0] <= '9');
 }
 
-// Length of the first cell of a header; separators inside quotes do not count.
+// The length of the first cell of a header. Separators inside quotes do not count.
 std::size_t header_cell(std::string_view rest, char separator) {
   bool in_quotes = false;
   for (std::size_t i = 0; i < rest.size(); ++i) {
@@ -49,7 +49,7 @@ char separator_in(std::string_view line) {
 }
 
 std::vector<std::string> header_cells(std::string_view line, bool names_only, bool keeps_tabs) {
-  // CloudCompare writes a line of names this way.
+  // CloudCompare begins a line of names in this way.
   if (line.starts_with("//")) line.remove_prefix(2);
   const char separator = separator_in(line);
   const auto trimmed = [separator](std::string_view text) {
@@ -90,7 +90,7 @@ std::vector<std::size_t> chosen_columns(const std::vector<std::string>& wanted,
                     fmt::join(names, ", "), header.size() > names.size() ? ", ..." : "",
                     names.empty() ? "numbers" : ", or numbers", width));
   };
-  // The number of a column, as written in the text; 0 if it is none.
+  // The number of a column, as written in the text. Returns 0 if the text is not a number.
   const auto number = [&](std::string_view text) -> std::size_t {
     std::size_t value = 0;
     const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
