@@ -146,7 +146,7 @@ class Search {
     }
   }
 
-  /// Keeps a threshold that fits, written with few digits. @return true if there is one.
+  /// Keeps a threshold that fits, written with few digits. @return true if such a threshold exists.
   bool try_threshold(double threshold) {
     RipsOptions changed = rips_->options();
     const std::string text = fmt::format("{:.3g}", threshold);

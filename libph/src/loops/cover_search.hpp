@@ -34,9 +34,9 @@ enum class Verdict { found, none, gave_up };
 /// Finds shortest paths on which cocycles have given values.
 ///
 /// Dijkstra's algorithm, started at the end, computes the distance of each vertex from the end. If
-/// the cocycles have the wanted values on the shortest path, it is the answer. Otherwise A*
-/// searches pairs (vertex, values so far), guided by these distances, which are lower bounds for
-/// paths with given values.
+/// the cocycles have the wanted values on the shortest path, this path is the answer. Otherwise A*
+/// searches pairs (vertex, values so far). The distances guide this search, because they are lower
+/// bounds for paths with given values.
 class CoverSearch {
  public:
   using Path = std::vector<std::uint32_t>;
@@ -85,7 +85,7 @@ class CoverSearch {
   std::pmr::vector<std::uint32_t> slot_;  // place of each cocycle in Values, or kNone
   std::vector<std::uint32_t> counted_;
   Values target_;
-  // For each vertex: data of the last search for distances to the end.
+  // For each vertex, the data of the last search for distances to the end.
   std::pmr::vector<std::uint32_t> stamp_, towards_;
   std::pmr::vector<Distance> distance_;
   std::uint32_t run_ = 0;

@@ -11,9 +11,9 @@
 
 namespace ph::detail {
 
-/// The first edges of a RipsGraph: the edges that exist when loops are born. The neighbours of each
-/// vertex are sorted by the order of their edges, which also gives access to the graph at any
-/// earlier value.
+/// The first edges of a RipsGraph, which are the edges that exist when loops are born. The
+/// neighbours of each vertex are sorted by the order of their edges. This order also gives access
+/// to the graph at any earlier value.
 class EarlyGraph {
  public:
   using Key = RipsGraph::Key;
@@ -45,10 +45,10 @@ class EarlyGraph {
   std::size_t vertices() const { return offsets_.size() - 1; }
   Key edges() const { return edges_; }
   double last_value() const { return last_value_; }
-  /// The number of edges with a value <= `last`, which is the key of the last such edge.
+  /// The number of edges with a value <= `last`, which is the key of the last of these edges.
   Key edges_up_to(double last) const {
     // Looking at an edge sorts all edges before it. The search therefore starts at the first edge
-    // and doubles its steps, which looks at no edge beyond twice the result.
+    // and doubles its steps, so that it looks at no edge beyond twice the result.
     const Key all = static_cast<Key>(graph_.edge_count());
     Key low = 0, high = std::min<Key>(1, all);
     while (high < all && graph_.value(high) <= last) {
@@ -76,7 +76,7 @@ class EarlyGraph {
       if (n.key != except) use(n.vertex, n.key);
     }
   }
-  /// The key of the edge between u and v; nothing if no early edge joins them.
+  /// The key of the edge between u and v. Returns nothing if no early edge joins them.
   std::optional<Key> key_of(std::uint32_t u, std::uint32_t v) const {
     const auto of_u = neighbours(u), of_v = neighbours(v);
     const bool u_has_fewer = of_u.size() <= of_v.size();
@@ -84,7 +84,7 @@ class EarlyGraph {
       if (n.vertex == (u_has_fewer ? v : u)) return n.key;
     return std::nullopt;
   }
-  /// The vertex that represents a point. Precondition: the point has one.
+  /// The vertex that represents a point. Precondition: the point has a vertex.
   std::uint32_t vertex_of(Index point) const {
     if (!graph_.has_names())
       return static_cast<std::uint32_t>(std::clamp<Index>(point, 0, graph_.size() - 1));

@@ -15,8 +15,8 @@ struct Lifetime {
   EarlyGraph::Key birth_key;
 };
 
-/// Decides which bars of a filtration matter for the cycles of a given bar: its *elders*, which are
-/// born before it and do not die before it.
+/// Decides which bars of a filtration matter for the cycles of a given bar. These bars are its
+/// *elders*, which are born before it and do not die before it.
 class Elders {
  public:
   /// Makes an object that compares births by edge or by value. @param by_value true for a
@@ -70,7 +70,7 @@ class EdgeCocycles {
       for (std::size_t k = 0; k < chain.size(); ++k) {
         ticker.work();
         const auto key = key_of(graph, chain.cell(k));
-        if (!key) continue;  // born later than any loop
+        if (!key) continue;  // the edge is born later than any loop
         const std::int64_t value = (chain.coefficient(k) % field + field) % field;
         placed.push_back(
             {*key,

@@ -50,7 +50,7 @@ class Shortcuts {
     double value;
   };
 
-  /// Tries to remove or replace the vertex walk[i], which lies between two others.
+  /// Tries to remove or replace the vertex walk[i], which is between two other vertices.
   Change change_at(Walk& walk, std::size_t i, const Around& around, StepBudget& budget) {
     const std::uint32_t first = walk[i - 1], middle = walk[i], last = walk[i + 1];
     const auto at = walk.begin() + static_cast<std::ptrdiff_t>(i);
@@ -83,8 +83,8 @@ class Shortcuts {
     return Change::moved;
   }
 
-  /// Tries to remove or replace the first vertex of a walk, which lies between the last and the
-  /// second.
+  /// Tries to remove or replace the first vertex of a walk, which is between the last vertex and
+  /// the second vertex.
   bool change_around(Walk& walk, const Around& around, StepBudget& budget) {
     std::rotate(walk.begin(), walk.end() - 1, walk.end());
     return change_at(walk, 1, around, budget) != Change::none;

@@ -20,11 +20,11 @@
 namespace ph::detail {
 namespace {
 
-// Limits for the number of steps across an edge, for all loops together and for one loop. A step
-// takes a few nanoseconds.
+// The limits for the number of steps across an edge, for all loops together and for one loop. A
+// step takes a few nanoseconds.
 constexpr std::uint64_t kMostSteps = 300'000'000, kMostStepsOfOne = 20'000'000;
-// Limit for the number of cofacets of edges that are listed to compute cocycles. Persistent
-// cohomology takes about a second for so many.
+// The limit for the number of cofacets of edges that are listed to compute cocycles. Persistent
+// cohomology takes about a second for this number of cofacets.
 constexpr double kMostCofacets = 5e7;
 // The relative difference that the order of summation may make in a sum of lengths.
 constexpr double kRounding = 1e-12;
@@ -44,7 +44,7 @@ struct Candidate {
   bool needs_cocycles;
 };
 
-/// The latest birth of a bar of H1 that has loops; nothing if no bar has loops.
+/// The latest birth of a bar of H1 that has loops. Returns nothing if no bar has loops.
 std::optional<double> last_birth(const Barcode& cycles, const std::vector<BarLoops>& loops) {
   std::optional<double> last;
   for (std::size_t i = 0; i < loops.size(); ++i)
@@ -122,8 +122,8 @@ class Tightener {
     });
     double last_death = -kInfinity;  // last death among the bars born before
     for (std::size_t begin = 0, end; begin < candidates.size(); begin = end) {
-      // A group consists of bars of which none is born before another: a single bar if births are
-      // compared by edge, otherwise all bars with the same birth.
+      // A group consists of bars none of which is born before another. It is a single bar if births
+      // are compared by edge. Otherwise it consists of all bars with the same birth.
       double last_of_group = -kInfinity;
       for (end = begin;
            end < candidates.size() &&
@@ -148,7 +148,8 @@ class Tightener {
 
   /// Computes the cocycles that bars need, but only for the bars that die early enough to keep the
   /// computation short.
-  /// @return the latest death among the bars that got their cocycles; -infinity if there is none.
+  /// @return the latest death among the bars that got their cocycles; -infinity if no bar got its
+  /// cocycle.
   double compute_cocycles(const std::vector<Candidate>& candidates, EdgeCocycles& cocycles) const {
     std::vector<Candidate> asking;  // sorted by birth
     for (const Candidate& c : candidates)
@@ -159,7 +160,7 @@ class Tightener {
     if (asking.empty()) return -kInfinity;
     double reach = -kInfinity;
     for (const Candidate& c : asking) reach = std::max(reach, c.lifetime.death);
-    // For each position in `asking`: the earliest death among the bars from there to the end.
+    // For each position in `asking`, the earliest death among the bars from there to the end.
     std::vector<double> first_death(asking.size());
     for (std::size_t i = asking.size(); i-- > 0;)
       first_death[i] = std::min(asking[i].lifetime.death,
@@ -282,8 +283,8 @@ class Tightener {
     return false;
   }
 
-  /// Sets the target of the search: the cocycles that count, and the values that they must have on
-  /// a path that forms a loop with the birth edge.
+  /// Sets the target of the search. The target consists of the cocycles that count, and the values
+  /// that they must have on a path that forms a loop with the birth edge.
   /// @return the coefficient of the birth edge in the chain.
   std::int64_t set_target(const Candidate& c, const InputChain& chain, const EdgeCocycles& cocycles,
                           CoverSearch& search) const {
@@ -344,7 +345,7 @@ void measure_and_tighten(const RipsGraph& graph, const Barcode& cycles, const Op
     Tightener tightener(graph, cycles, *last, options, context);
     for (BarLoops& of_bar : loops) tightener.measure(of_bar.loops);
     if (tighten) tightener.tighten(loops);
-  } catch (const Error& error) {  // each bar has its old or its new loops, both valid
+  } catch (const Error& error) {  // each bar has its old or its new loops, both of which are valid
     if (error.kind() != ErrorKind::resource) throw;
   } catch (const std::bad_alloc&) {
   }

@@ -13,8 +13,8 @@
 
 namespace ph {
 
-/// The points of R^1, R^2 or R^3 sorted into cubes slightly larger than a radius: all neighbours of
-/// a point lie in the 27 cubes around it. Coordinates of cubes are integers stored as doubles,
+/// The points of R^1, R^2 or R^3 sorted into cubes slightly larger than a radius. All neighbours of
+/// a point are in the 27 cubes around it. Coordinates of cubes are integers stored as doubles,
 /// which cannot overflow. This class exists in addition to the k-d tree because the tree takes 1.1
 /// to 1.8 times as long (docs/development/adr/0020).
 class CubeList {
@@ -24,12 +24,12 @@ class CubeList {
     std::uint32_t number;
   };
 
-  /// O(points log points).
+  /// Takes O(points log points) time.
   CubeList(PointsView points, double radius, const RunContext& context);
 
-  /// Calls `visit(p, q)` for each pair of points in the same or in adjacent cubes, in an order that
-  /// depends on the points alone. Few of these pairs are farther apart than the radius: the time is
-  /// proportional to the number of pairs within the radius.
+  /// Calls `visit(p, q)` for each pair of points in the same or in adjacent cubes. The order of the
+  /// pairs depends only on the points. Few of these pairs are farther apart than the radius, so the
+  /// time is proportional to the number of pairs within the radius.
   template <class Visit>
   void for_each_candidate_pair(Visit&& visit, const RunContext& context) const;
 
@@ -49,8 +49,8 @@ class CubeList {
 template <class Visit>
 void CubeList::for_each_candidate_pair(Visit&& visit, const RunContext& context) const {
   Ticker ticker(context, "near pairs", cubes_.size());
-  // Half of the neighbours: the next cube of the same row, and three cubes in each of the following
-  // rows.
+  // This table lists half of the neighbours. They are the next cube of the same row, and three
+  // cubes in each of the following rows.
   constexpr std::array<std::array<double, 2>, 4> rows_after = {{{1, 0}, {-1, 1}, {0, 1}, {1, 1}}};
   std::array<std::size_t, 4> first{};  // for each row: the first cube that may still be adjacent
   for (std::size_t c = 0; c < cubes_.size(); ++c) {

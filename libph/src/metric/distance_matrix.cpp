@@ -27,7 +27,7 @@ DistanceMatrix::DistanceMatrix(Index size, std::vector<double> lower, std::vecto
             ErrorKind::bad_data,
             fmt::format("distance ({}, {}): found {}, expected a number >= 0", i, j, lower[k]));
       }
-      lower[k] += 0.0;  // turns -0.0 into +0.0
+      lower[k] += 0.0;  // the sum turns -0.0 into +0.0
     }
   }
   numbers_ = std::make_shared<const Numbers>(Numbers{std::move(lower), std::move(births)});

@@ -24,7 +24,7 @@ void detail::check_neighbours(Index neighbours, Index size) {
 double detail::root_mean_square(std::span<const double> distances) {
   const double largest = distances.empty() ? 0 : std::ranges::max(distances);
   if (largest == 0 || std::isinf(largest)) return largest;
-  double sum = 0;  // scaled, because squares may leave the range of double
+  double sum = 0;  // the sum is scaled, because squares may leave the range of double
   for (const double d : distances) sum += (d / largest) * (d / largest);
   return largest * std::sqrt(sum / static_cast<double>(distances.size() + 1));
 }
@@ -35,8 +35,8 @@ std::vector<double> distance_to_measure(PointsView points, Index neighbours, Poi
   points = checked.points();  // now the rows are contiguous
   detail::check_neighbours(neighbours, points.rows());
   const auto others = static_cast<std::size_t>(neighbours - 1);
-  // A list of neighbours is kept sorted as it grows: beyond this length, a search of all points is
-  // faster.
+  // A list of neighbours is kept sorted as it grows. If the list would be longer than this, a
+  // search of all points is faster.
   constexpr std::size_t most_others = 512;
   if (others == 0 || others > most_others || points.cols() == 0 ||
       !has_fast_spanning_forest(points, distance))

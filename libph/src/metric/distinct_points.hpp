@@ -10,8 +10,8 @@
 
 namespace ph {
 
-/// For each point: the first point that is equal to it, which may be the point itself. Takes O(n
-/// log n) time.
+/// For each point, the first point that is equal to it. This may be the point itself. Takes O(n log
+/// n) time.
 /// @param points fewer than 2^32 points with finite coordinates; -0 equals +0.
 std::pmr::vector<std::uint32_t> first_equal_points(PointsView points, const RunContext& context);
 

@@ -71,7 +71,8 @@ class Squares {
   std::pmr::vector<double> nearest_;
 };
 
-/// The permutation, found by comparing squared distances; nothing if squares would lose digits.
+/// The permutation, found by comparing squared distances. Returns nothing if squares would lose
+/// digits.
 std::optional<GreedyPermutation> by_squares(PointsView points, const GreedyLimits& limits,
                                             const RunContext& context) {
   const double reach = largest_coordinate(points);

@@ -10,9 +10,9 @@
 namespace ph {
 namespace {
 
-// A Gaps type is a norm that is never larger than the distance searched for, and cheap to compute
-// from the gaps between two boxes on each axis. Norm and distance are rounded; `reach` leaves room
-// for the errors of sums, so that no point within the distance is missed.
+// A Gaps type is a norm that is never larger than the distance searched for. It is cheap to compute
+// from the gaps between two boxes on each axis. The norm and the distance are rounded. The function
+// `reach` therefore allows for the errors of sums, so that no point within the distance is missed.
 // mutant: search-slack
 double slack(Index axes) { return 1 + 4e-16 * static_cast<double>(axes + 8); }
 
@@ -34,8 +34,8 @@ struct ChebyshevGaps {
   static double reach(double d, double slack) { return d * slack; }
 };
 
-/// For Euclidean distances whose squares underflow. Searches reach at least 1e-160, because
-/// PointMetric gives distance 0 to points whose squared differences underflow to 0.
+/// The gaps for Euclidean distances whose squares underflow. Searches reach at least 1e-160,
+/// because PointMetric gives distance 0 to points whose squared differences underflow to 0.
 struct TinyGaps : ChebyshevGaps {
   static double reach(double d, double slack) { return std::max(d * slack, 1e-160); }
 };
@@ -165,8 +165,8 @@ class Search final : public NeighbourSearch {
       sum = Gaps::add(sum, std::max({a[2 * k] - b[2 * k + 1], b[2 * k] - a[2 * k + 1], 0.0}));
     return sum;
   }
-  /// @param sum the result of gap_to_point(p, q). Unless digits were lost, it equals the sum that
-  /// the metric computes.
+  /// @param sum the result of gap_to_point(p, q), which equals the sum that the metric computes
+  /// unless digits were lost.
   double distance(Position p, Position q, double sum) const {
     if constexpr (std::same_as<Gaps, EuclideanGaps>)
       if (is_root_of_sum_ && sum >= Gaps::kSmallestPlainSquare) return std::sqrt(sum);
@@ -191,8 +191,8 @@ class Search final : public NeighbourSearch {
     list[i] = neighbour;
   }
 
-  /// Visits the leaves, nearer child first. @param gap_to the gap between a node and the starting
-  /// point.
+  /// Visits the leaves, with the nearer child first. @param gap_to the gap between a node and the
+  /// starting point.
   /// @param is_hopeless returns true if a node with that gap can be skipped.
   template <class GapTo, class IsHopeless, class VisitLeaf>
   void traverse(GapTo&& gap_to, IsHopeless&& is_hopeless, VisitLeaf&& visit_leaf) const {

@@ -12,8 +12,8 @@
 namespace ph {
 
 /// Exact searches in a k-d tree for nearest points and for all pairs within a given distance.
-/// Distances equal those of PointMetric to the last bit; among points at the same distance, the one
-/// with the smaller row is nearer.
+/// Distances equal the distances of PointMetric to the last bit. If two points are at the same
+/// distance, the point with the smaller row counts as nearer.
 class NeighbourSearch {
  public:
   using Position = KdTree::Position;
@@ -28,17 +28,19 @@ class NeighbourSearch {
   struct Parts {
     static constexpr std::uint32_t kMixed = UINT32_MAX;
     std::span<const std::uint32_t> of_point;  ///< part of each position
-    /// For each node: the part that contains all its points, or kMixed.
+    /// For each node, the part that contains all its points, or kMixed.
     std::span<const std::uint32_t> of_node;
   };
 
   virtual ~NeighbourSearch() = default;
 
-  /// Which of several points at the same distance are found: the points with the smallest rows, or
-  /// any. `any` is much faster if many points are equal and at distance 0.
+  /// Decides which of several points at the same distance are found. With `by_row`, they are the
+  /// points with the smallest rows. With `any`, they are any of these points, which is much faster
+  /// if many points are equal and at distance 0.
   enum class Ties { by_row, any };
 
-  /// For each point of a leaf, its k nearest other points at distance <= limit, nearest first.
+  /// For each point of a leaf, finds its k nearest other points at distance <= limit, nearest
+  /// first.
   /// @param found k entries per point, point by point; entries without a neighbour stay kNone.
   virtual void nearest(Node leaf, std::size_t k, double limit, Ties ties,
                        std::span<Neighbour> found) const = 0;
@@ -47,7 +49,7 @@ class NeighbourSearch {
                                     Ties ties) const = 0;
   using VisitPair = std::function<void(Index, Index, double)>;
   /// Calls `visit(i, j, distance)` once for each pair of rows i < j at distance <= limit, in an
-  /// order that depends on the points alone.
+  /// order that depends only on the points.
   virtual void pairs_within(double limit, const VisitPair& visit,
                             const RunContext& context) const = 0;
 

@@ -21,9 +21,9 @@ namespace {
 
 using Visit = std::function<void(Index, Index, double)>;
 
-// The search for pairs: the points and the radius, multiplied by a power of two if squares would
-// leave the range of double. This is exact, except for digits that are negligible compared with the
-// largest coordinate.
+// The points and the radius of a search for pairs. Both are multiplied by a power of two if squares
+// would leave the range of double. This is exact, except for digits that are negligible compared
+// with the largest coordinate.
 struct SearchSpace {
   PointsView points;
   double radius;
@@ -34,7 +34,7 @@ void visit_in_cubes(const SearchSpace& space, const PointMetric& metric, double 
                     const Visit& visit, const RunContext& context) {
   const CubeList cubes(space.points, space.radius, context);
   // Most candidates are so far apart that comparing squares is enough, despite rounding errors.
-  // They need no root.
+  // These candidates need no root.
   const double far =
       std::max(space.radius * space.radius, PointMetric::kLeastPlainSquare) * (1 + 1e-12);
   cubes.for_each_candidate_pair(
@@ -102,10 +102,11 @@ void for_each_pair_within(PointsView points, double radius, const Visit& visit,
     throw Error(ErrorKind::usage, fmt::format("radius: found {}, expected a number >= 0", radius));
   }
   const PointMetric metric(points);
-  // Measured: for this few points, computing all pairs takes little time, because many distances
-  // are computed at once. For some inputs, a tree would take longer.
+  // Measurements show that computing all pairs of so few points takes little time, because many
+  // distances are computed at once. For some inputs, a tree would take longer.
   constexpr Index few = 1 << 14;
-  // The squares of smaller distances underflow, and one cube would hold all such points.
+  // The squares of smaller distances underflow, and all points at smaller distances would be in one
+  // cube.
   constexpr double tiny = 1e-139;
   const bool has_cubes = points.cols() == 0 || (points.cols() <= 3 && radius >= tiny);
   const auto visit_all = has_cubes              ? visit_by_cubes

@@ -43,7 +43,7 @@ double sum_in_lanes(Index count, const Term& term) {
   return sum;
 }
 
-/// The largest of the terms 0 … count - 1, or 0 if there are none or all are negative.
+/// The largest of the terms 0 … count - 1, or 0 if there are no terms or all terms are negative.
 template <class Term>
 double largest_of(Index count, const Term& term) {
   double largest = 0;
@@ -106,11 +106,11 @@ double PointMetric::euclidean(Index i, Index j) const {
   if (!may_need_scaling_) {
     double sum = 0;
     for (Index k = 0; k < d; ++k) sum += (x[k] - y[k]) * (x[k] - y[k]);
-    // A tiny sum may have lost digits to underflow; the distance is then computed with scaling.
+    // A tiny sum may have lost digits to underflow. The distance is then computed with scaling.
     if (sum >= kLeastPlainSquare || sum == 0) return std::sqrt(sum);
   }
-  // Halves coordinates only if their differences overflow, because half of the smallest denormal is
-  // zero.
+  // Coordinates are halved only if their differences overflow, because half of the smallest
+  // denormal is zero.
   const auto scaled = [&](double unit) {
     double largest = 0;
     for (Index k = 0; k < d; ++k) largest = std::max(largest, std::abs(x[k] * unit - y[k] * unit));

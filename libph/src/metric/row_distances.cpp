@@ -12,8 +12,8 @@
 namespace ph {
 namespace {
 
-// The number of points per block, small enough for sums to stay in registers. A block stores its
-// points axis by axis; unused places in the last block are zero.
+// The number of points per block. It is small enough for sums to stay in registers. A block stores
+// its points axis by axis. Unused places in the last block are zero.
 constexpr Index kBlock = 16;
 
 // Computes the distances from point i to all points before it. The last block is written entirely.

@@ -12,12 +12,12 @@
 namespace ph {
 namespace {
 
-// Borůvka's algorithm: in each round, every component takes its first edge to another component.
-// Call a point of another component foreign. Rounds are cheap because the distance from a point to
-// its nearest foreign point never decreases. Each point stores a few nearest neighbours, found
-// once; the first foreign point among them is its nearest foreign point. If none of them is
-// foreign, the last of them gives a lower bound. The tree is searched only if this bound does not
-// exceed the best edge that the component already has.
+// Runs Borůvka's algorithm. In each round, every component takes its first edge to another
+// component. A point of another component is called foreign. Rounds are cheap because the distance
+// from a point to its nearest foreign point never decreases. Each point stores a few nearest
+// neighbours, which are found once. The first foreign point among them is its nearest foreign
+// point. If none of them is foreign, the last of them gives a lower bound. The tree is searched
+// only if this bound does not exceed the best edge that the component already has.
 class Boruvka {
  public:
   Boruvka(const KdTree& tree, const NeighbourSearch& search, const PointMetric& metric,
@@ -63,7 +63,7 @@ class Boruvka {
   };
   struct Point {
     Neighbour first;
-    // Position of `first` among the known neighbours; kKnown if the tree found it.
+    // The position of `first` among the known neighbours, or kKnown if the tree found it.
     std::uint8_t place = 0;
     Knows knows = Knows::lower_bound;
   };
@@ -137,7 +137,8 @@ class Boruvka {
     for (Position c = 0; c < points_.size(); ++c)
       if (component_[c] == c)
         reach_[c] = best_[c] == kNone ? limit_ : points_[best_[c]].first.distance;
-    // Points that follow each other in the tree are near each other, which gives a first bound.
+    // Points that follow each other in the tree are near each other, so their distances give a
+    // first bound.
     for (Position p = 1; p < points_.size(); ++p) {
       const std::uint32_t a = component_[p - 1], b = component_[p];
       if (a == b || (best_[a] != kNone && best_[b] != kNone)) continue;
@@ -175,8 +176,8 @@ class Boruvka {
     return best == kNone || precedes(p, best);  // mutant: forest-bound-tie
   }
 
-  /// Adds the best edge of each component to the forest. @return true if components are left that
-  /// may join.
+  /// Adds the best edge of each component to the forest. @return true if there are still components
+  /// that may join.
   bool join(FlagEdges& forest) {
     const std::size_t before = components_;
     for (Position c = 0; c < best_.size(); ++c) {
@@ -217,8 +218,8 @@ class Boruvka {
   std::pmr::vector<std::uint32_t> component_;       // component of each position: a root of sets_
   std::pmr::vector<std::uint32_t> node_component_;  // component of each node of the tree
   DisjointSets sets_;
-  std::pmr::vector<Position> best_;  // for each component: the point with its best edge
-  // For each component: an upper bound for the length of its best edge.
+  std::pmr::vector<Position> best_;  // for each component, the point with its best edge
+  // For each component, an upper bound for the length of its best edge.
   std::pmr::vector<std::atomic<double>> reach_;
   std::pmr::vector<Position> asking_;
 };
@@ -236,7 +237,7 @@ FlagEdges spanning_forest(PointsView points, PointDistance distance, double p, d
   points = checked.points();  // now the rows are contiguous
   FlagEdges forest(&context.memory);
   const std::pmr::vector<std::uint32_t> first_equal = first_equal_points(points, context);
-  // Each copy is joined to the first point that equals it. No other edge of a copy precedes the
+  // Each copy is joined to the first point that equals it. No other edge of a copy comes before the
   // corresponding edge of that first point.
   for (std::uint32_t i = 0; i < first_equal.size(); ++i)
     if (first_equal[i] != i) forest.push_back({0.0, i, first_equal[i]});  // mutant: forest-copies

@@ -32,7 +32,7 @@ SparseDistances::SparseDistances(Index size, std::vector<WeightedEdge> edges) : 
   for (WeightedEdge& e : edges) {
     check(e, size_);
     if (e.u > e.v) std::swap(e.u, e.v);
-    e.value += 0.0;  // turns -0.0 into +0.0
+    e.value += 0.0;  // the sum turns -0.0 into +0.0
   }
   std::sort(edges.begin(), edges.end(), [](const WeightedEdge& a, const WeightedEdge& b) {
     return a.u != b.u ? a.u < b.u : a.v < b.v;

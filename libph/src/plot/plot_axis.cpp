@@ -28,8 +28,8 @@ std::string superscript(int number) {
   return text;
 }
 
-/// Rounds up to 1, 2 or 5 times a power of ten; a number at most 1 % above such a value is rounded
-/// down to it.
+/// Rounds up to 1, 2 or 5 times a power of ten. A number that is at most 1 % above one of these
+/// values is rounded down to that value.
 double round_step(double rough) {
   const double power = std::pow(10.0, magnitude(rough));
   double step = 10 * power;
@@ -74,8 +74,8 @@ Axis::Axis(const Range& range, const PlotOptions& options, double from, double t
   }
   low_ = in_units(low, exponent_);
   high_ = in_units(high, exponent_);
-  // If the ends are equal, or so close that few doubles lie between them, the right end is moved to
-  // the right. A class that begins at the left end then has room for its bar.
+  // The ends may be equal, or so close that few doubles are between them. The right end is then
+  // moved to the right, so that a class that begins at the left end has room for its bar.
   const double least = 1e-12 * std::max({std::abs(low_), std::abs(high_), 1e-300});
   // mutant: plot-one-class
   if (!(high_ - low_ > least)) high_ += low_ == 0 ? 1 : 0.5 * std::abs(low_);
@@ -125,7 +125,7 @@ std::vector<Axis::Tick> Axis::powers_of_ten(int count) const {
 
 /// Ticks at round values, for an axis that does not contain two powers of ten.
 std::vector<Axis::Tick> Axis::round_values(int count) const {
-  // Uses a unit in which neither the ends nor a step leave the range of double.
+  // The unit is chosen so that neither the ends nor a step leave the range of double.
   const auto unit = static_cast<int>(std::floor(negated_ ? -low_ : high_));
   const double least = std::pow(10.0, (negated_ ? -high_ : low_) - unit),
                most = std::pow(10.0, (negated_ ? -low_ : high_) - unit);
@@ -171,7 +171,7 @@ std::string Axis::unit() const { return shows_unit_ ? "×10" + superscript(expon
 
 void Axis::draw_below(Canvas& canvas, double top, double bottom, const std::string& name) const {
   std::vector<Tick> shown = ticks(6);
-  // Long labels need room: a digit of 7 points is about 4 points wide.
+  // Long labels need room, because a digit of 7 points is about 4 points wide.
   for (int count = 5; count >= 2; --count) {
     double needed = 0;
     for (const Tick& tick : shown)

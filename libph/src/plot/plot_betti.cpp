@@ -57,7 +57,7 @@ std::vector<Step> thinned(const std::vector<Step>& steps) {
   return kept;
 }
 
-/// The step between the ticks of the vertical axis, chosen so that at most three ticks lie above 0.
+/// The step between the ticks of the vertical axis, chosen so that at most three ticks are above 0.
 long count_step(long most) {
   long step = 1;
   for (long power = 1; power <= most; power *= 10)
@@ -66,7 +66,7 @@ long count_step(long most) {
   return most / step > 3 ? 10 * step : step;
 }
 
-/// Writes 20k for 20,000; this loses no digits, because the ticks are round numbers.
+/// Writes 20k for 20,000. This loses no digits, because the ticks are round numbers.
 std::string count_label(long count) {
   if (count >= 1'000'000 && count % 100'000 == 0)
     return fmt::format("{}M", static_cast<double>(count) / 1e6);

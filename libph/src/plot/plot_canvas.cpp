@@ -7,9 +7,11 @@
 namespace ph::plot {
 namespace {
 
-constexpr std::string_view kReplacement = "\xef\xbf\xbd";  // U+FFFD
+// The replacement character U+FFFD.
+constexpr std::string_view kReplacement = "\xef\xbf\xbd";
 
-/// Number of bytes of the UTF-8 character at the start of `text` if XML allows it, otherwise 0.
+/// The number of bytes of the UTF-8 character at the start of `text`. It is 0 if XML does not allow
+/// the character.
 std::size_t character_length(std::string_view text) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   const unsigned char first = byte(0);
@@ -47,7 +49,7 @@ Colour colour_of_dim(int dim) {
 std::string with_subscript(std::string_view letter, int number) {
   std::string text(letter);
   for (const char digit : std::to_string(number)) {
-    text += "\xe2\x82";  // U+2080 … U+2089
+    text += "\xe2\x82";  // the characters are U+2080 … U+2089
     text += static_cast<char>(0x80 + (digit - '0'));
   }
   return text;
@@ -92,7 +94,7 @@ void Canvas::title(const std::string& title) {
   for (std::size_t i = 0; i < characters.size(); ++i) {
     const bool cut = characters.size() > fits && i >= fits / 2 && i < characters.size() - fits / 2;
     if (!cut) shown += characters[i];
-    if (cut && i == fits / 2) shown += "\xe2\x80\xa6";  // …
+    if (cut && i == fits / 2) shown += "\xe2\x80\xa6";  // the ellipsis …
   }
   text(kWidth / 2, 11, shown, Anchor::middle, 8, kInk, Look::bold);
 }

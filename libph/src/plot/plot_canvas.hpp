@@ -26,11 +26,11 @@ inline constexpr Colour kInk = 0x222222, kGrey = 0x767676, kGrid = 0xe4e4e4, kWh
 
 /// The colours of Okabe and Ito, which people with any kind of colour vision can distinguish.
 Colour colour_of_dim(int dim);
-/// "H" (or another letter) with a dimension in Unicode's subscript digits.
+/// "H" (or another letter) followed by a dimension in Unicode's subscript digits.
 std::string with_subscript(std::string_view letter, int number);
 /// Formats a number as "12,345".
 std::string grouped(std::size_t number);
-/// The characters of a UTF-8 text; characters that XML does not allow become U+FFFD.
+/// The characters of a UTF-8 text. Characters that XML does not allow become U+FFFD.
 std::vector<std::string> characters_of(std::string_view text);
 
 /// An outline made of lines, open or closed, and circles.
@@ -44,7 +44,8 @@ class Outline {
     horizontal_by,
     vertical_to,  // uses only y
     vertical_by,
-    circle_by,  // starts and ends at the current place; x is its width, to the right
+    // Starts and ends at the current place; x is the width of the circle, to the right.
+    circle_by,
     close
   };
   struct Step {
@@ -122,7 +123,7 @@ struct Picture {
 };
 using Element = std::variant<Line, Rectangle, Shape, Text, Picture>;
 
-/// A complete picture on white. to_svg and to_raster convert it to file formats.
+/// A complete picture on white. The functions to_svg and to_raster convert it to file formats.
 struct Drawing {
   double height = 0, width = kWidth;  // in points
   std::optional<PlotSize> size = {};  // if empty: 88 mm, kPixels wide
@@ -151,8 +152,8 @@ class Canvas {
   std::vector<Element> elements_;
 };
 
-/// The smallest and the largest finite value. If there is none, these are 0 and 1, or, on a
-/// logarithmic axis, 1 and 10.
+/// The smallest and the largest finite value. If there is no finite value, these are 0 and 1, or 1
+/// and 10 on a logarithmic axis.
 struct Range {
   double low = 0;
   double high = 1;
@@ -162,14 +163,15 @@ struct Range {
 /// any size, because it computes in units of a power of ten.
 class Axis {
  public:
-  /// @param range the values at the ends of the axis; the options may replace them, and if both are
-  /// equal, the range is widened.
+  /// @param range the values at the ends of the axis. The options may replace these values. If both
+  /// values are equal, the range is widened.
   /// @throws Error (usage) if the options leave an empty range.
   Axis(const Range& range, const PlotOptions& options, double from, double to);
 
   double from() const { return from_; }
   double to() const { return to_; }
-  /// Position of a value; a value that is infinite or beyond an end lies at that end.
+  /// The position of a value. A value that is infinite or beyond an end gets the position of that
+  /// end.
   double at(double value) const;
 
   struct Tick {
@@ -178,7 +180,7 @@ class Axis {
   };
   /// About `count` ticks at round numbers.
   std::vector<Tick> ticks(int count) const;
-  /// "×10⁻⁶" if the labels are in such units, otherwise empty.
+  /// The text "×10⁻⁶" if the labels are in these units, otherwise empty.
   std::string unit() const;
   /// Draws gridlines between `top` and `bottom`, and the ticks, the labels and the name of the axis
   /// below `bottom`.
@@ -201,7 +203,7 @@ class Axis {
 /// The limits of the axis in terms of the bars' values. For negated data, the two limits are
 /// negated and swapped.
 PlotAxis limits_of(const PlotOptions& options);
-/// The range of the values on the axis; an arbitrary range if there are none.
+/// The range of the values on the axis, or an arbitrary range if there are no values.
 Range finite_range(const Barcode& barcode, const PlotOptions& options);
 Range finite_range(std::span<const Branch> tree, const std::vector<std::size_t>& classes,
                    const PlotOptions& options);
@@ -231,7 +233,7 @@ Drawing draw(const Barcode& barcode, const PlotOptions& options);
 
 std::string to_svg(const Drawing& drawing);
 
-/// Bytes that to_raster needs, including writing its result as a PNG.
+/// The number of bytes that to_raster needs, including the bytes for writing its result as a PNG.
 std::size_t raster_bytes(const Drawing& drawing);
 
 /// Converts the drawing to RGB. @throws std::bad_alloc.

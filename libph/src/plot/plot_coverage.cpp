@@ -4,7 +4,7 @@
 namespace ph::plot {
 namespace {
 
-/// The point of a line at a height; the ends of the line have different heights.
+/// The point of a line at a given height. The ends of the line have different heights.
 Place at_height(Place from, Place to, double y) {
   return {from.x + (to.x - from.x) * (y - from.y) / (to.y - from.y), y};
 }
@@ -40,7 +40,7 @@ void Coverage::add(Place from, Place to) {
 }
 
 void Coverage::add_within_row(std::size_t row, Place from, Place to) {
-  // All pixels of the row are to the right of an edge that is left of the picture; no pixel is to
+  // All pixels of the row are to the right of an edge that is left of the picture. No pixel is to
   // the right of an edge that is right of the picture.
   const auto right = static_cast<double>(width_);
   if (std::max(from.x, to.x) <= 0 || std::min(from.x, to.x) >= right || from.x == to.x) {

@@ -13,13 +13,13 @@ struct Place {
   double x = 0, y = 0;
 };
 
-/// The part of each pixel that an area covers. Areas are added edge by edge; overlapping areas with
+/// The part of each pixel that an area covers. Areas are added edge by edge. Overlapping areas with
 /// the same orientation form a single area.
 class Coverage {
  public:
   Coverage(std::size_t width, std::size_t height);
 
-  /// Adds an edge of an area, which may lie outside the picture; all edges of the area must be
+  /// Adds an edge of an area. The edge may be outside the picture. All edges of the area must be
   /// added.
   void add(Place from, Place to);
   /// Adds a polygon, which is closed automatically.
@@ -28,7 +28,7 @@ class Coverage {
   /// single area.
   void add_turned(std::span<const Place> corners);
 
-  /// Calls visit(pixel, part) with the number of a pixel, row by row, and 0 < part <= 1; then
+  /// Calls visit(pixel, part) with the number of a pixel, row by row, where 0 < part <= 1. Then
   /// forgets the areas.
   template <class Visit>
   void take(Visit&& visit);
@@ -38,13 +38,14 @@ class Coverage {
   void add_within_pixel(std::size_t row, Place from, Place to);
 
   std::size_t width_, height_;
-  // The change of the coverage from each pixel to the next one on its right, row by row. Each row
+  // The change of the coverage from each pixel to the next pixel on its right, row by row. Each row
   // has one extra column.
   std::vector<float> change_;
   std::size_t first_row_, end_row_;  // range of rows that were touched
 };
 
-/// The area of a polygon, positive if it is oriented clockwise (y pointing down).
+/// The area of a polygon. It is positive if the polygon is oriented clockwise, with y pointing
+/// down.
 double signed_area(std::span<const Place> corners);
 
 template <class Visit>

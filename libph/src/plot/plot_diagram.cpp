@@ -16,7 +16,8 @@ namespace {
 constexpr double kLeft = 34, kRight = 242;
 constexpr double kInfinityRoom = 14;        // space between the infinity line and the finite values
 constexpr std::size_t kMostMarkers = 1500;  // more markers cannot be distinguished
-constexpr std::size_t kCrispBars = 120;  // bars drawn as markers if there are too many to draw all
+// The number of bars drawn as markers if there are too many to draw all of them.
+constexpr std::size_t kCrispBars = 120;
 
 /// Bars of one dimension that coincide in the picture.
 struct Marker {
@@ -26,7 +27,7 @@ struct Marker {
 
 using Places = std::map<std::tuple<int, long, long>, Marker>;
 
-/// Merges the bars of a dimension that lie in the same square of a quarter of a point; the marker
+/// Merges the bars of a dimension that are in the same square of a quarter of a point. The marker
 /// is drawn at their mean position.
 template <class PlaceOf>
 Places gather(std::span<const Bar> bars, PlaceOf&& place_of) {
@@ -85,7 +86,7 @@ void add_shape(Outline& to, int dim, double x, double y, double r) {
   }
 }
 
-/// Writes "Filtration value" with a lower-case letter for use inside a phrase; words like "XY" do
+/// Writes "Filtration value" with a lower-case letter for use inside a phrase. Words like "XY" do
 /// not change.
 std::string lower_first(std::string text) {
   const auto in = [](char c, char a, char b) { return c >= a && c <= b; };
@@ -97,13 +98,14 @@ std::string lower_first(std::string text) {
 /// Counts the bars in each square of a picture.
 class Squares {
  public:
-  /// @param side of a square, in whole pixels of a PNG; adjacent squares then show no seam.
+  /// @param side the side of a square in whole pixels of a PNG, so that adjacent squares show no
+  /// seam.
   explicit Squares(int side) : side_(side * kWidth / static_cast<double>(kPixels)) {}
 
   void add(int dim, double x, double y) { ++counts_[{dim, number(y), number(x)}]; }
   std::size_t size() const { return counts_.size(); }
 
-  /// Squares with more bars are darker; one path per dimension and shade keeps the file small.
+  /// Squares with more bars are darker. One path per dimension and shade keeps the file small.
   void draw(Canvas& canvas) const {
     constexpr int shades = 12;
     std::map<int, std::size_t> most;
@@ -217,7 +219,7 @@ void draw_markers(Canvas& canvas, const Places& places, double left) {
     canvas.shape(
         std::move(outline),
         {.fill = colour_of_dim(dim), .stroke = edge, .stroke_width = 0.25, .fill_opacity = 0.8});
-  // If there are few markers, there is room for the number of bars that each stands for.
+  // If there are few markers, there is room for the number of bars that each marker represents.
   if (places.size() > 40) return;
   for (const auto& [where, marker] : places) {
     if (marker.count == 1) continue;

@@ -38,12 +38,12 @@ __asm__(PH_READ_ONLY
 namespace ph::plot {
 namespace {
 
-// Makes text as wide as in Helvetica, for which the pictures are designed.
+// This factor makes text as wide as in Helvetica, for which the pictures are designed.
 constexpr double kNarrow = 0.9;
 constexpr int kPieces = 5;  // line segments per curve
 
-// The allocator of FreeType. When memory runs out, FreeType reports a different error, such as a
-// missing module; `user` points to a flag that tells whether allocation failed.
+// This is the allocator of FreeType. When memory runs out, FreeType reports a different error, such
+// as a missing module. `user` therefore points to a flag that records whether allocation failed.
 extern "C" {
 static void* allocate(FT_Memory memory, long size) {
   void* const block = std::malloc(static_cast<std::size_t>(size));
@@ -66,7 +66,7 @@ char32_t code_point(const std::string& character) {
   return code;
 }
 
-/// Turns one outline of a glyph into a polygon. The points, in font units, are corners, and control
+/// Turns one outline of a glyph into a polygon. The points, in font units, are corners and control
 /// points of quadratic Bézier curves between the corners. Two consecutive control points imply a
 /// corner midway between them.
 /// @param tags the tags of the points: char or, since FreeType 2.13.3, unsigned char.
@@ -110,7 +110,7 @@ struct Font::Face {
   FT_Face face = nullptr;
 
   ~Face() {
-    if (library != nullptr) FT_Done_Library(library);  // frees its faces as well
+    if (library != nullptr) FT_Done_Library(library);  // this also frees its faces
   }
   /// Checks the result of a call of FreeType. @throws std::bad_alloc; Error (internal).
   void require(FT_Error error) const {
@@ -133,7 +133,7 @@ const Font::Glyph& Font::glyph(const std::string& character) {
   const auto found = glyphs_.find(character);
   if (found != glyphs_.end()) return found->second;
   FT_Face face = face_->face;
-  // Works in font units, because hinting depends on the version of FreeType.
+  // Glyphs are loaded in font units, because hinting depends on the version of FreeType.
   face_->require(
       FT_Load_Glyph(face, FT_Get_Char_Index(face, code_point(character)), FT_LOAD_NO_SCALE));
   const double unit = 1.0 / face->units_per_EM;

@@ -12,7 +12,7 @@ namespace ph::plot {
 /// The font built into the library, for pictures made of pixels.
 class Font {
  public:
-  /// A glyph at size 1. Outer outlines are clockwise, outlines of holes are counterclockwise.
+  /// A glyph at size 1. Outer outlines are clockwise. Outlines of holes are counterclockwise.
   struct Glyph {
     std::vector<std::vector<Place>> outlines;  // the origin is the start of the baseline
     double advance = 0;                        // distance to the next character
@@ -24,7 +24,7 @@ class Font {
   Font(const Font&) = delete;
   Font& operator=(const Font&) = delete;
 
-  /// The glyph of a UTF-8 character; a box if the font lacks it.
+  /// The glyph of a UTF-8 character, or a box if the font lacks this character.
   const Glyph& glyph(const std::string& character);
 
   /// A name such as "FreeType 2.12.1, DejaVu Sans".

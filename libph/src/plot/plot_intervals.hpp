@@ -6,8 +6,9 @@
 
 #include "libph/src/plot/plot_canvas.hpp"
 
-// Code shared by pictures of barcodes and merge trees, which draw classes as lines over the
-// filtration value: the longest one by one, the others as a density.
+// This code is shared by pictures of barcodes and merge trees, which draw classes as lines over the
+// filtration value. The longest classes are drawn one by one, and the others are drawn as a
+// density.
 namespace ph::plot {
 
 inline constexpr double kFirstValue = 30, kLastValue = 242;  // start and end of the axis
@@ -15,13 +16,13 @@ inline constexpr double kTriangle = 4.5;                     // room for a trian
 inline constexpr std::size_t kRows = 96;      // largest number of lines in one picture
 inline constexpr double kDensityHeight = 16;  // height of a density with its caption
 
-/// Positions in a list of classes: those of the longest classes, ascending, and those of all
-/// others.
+/// Positions in a list of classes. The first list has the positions of the longest classes,
+/// ascending. The second list has the positions of all other classes.
 struct Longest {
   std::vector<std::size_t> crisp, rest;
 };
-/// @param most the number of classes that are drawn one by one; if at most `handful` classes would
-/// remain, all are drawn this way.
+/// @param most the number of classes that are drawn one by one. If at most `handful` classes would
+/// remain, all classes are drawn in this way.
 /// @param length returns the length of the class at a position.
 template <class Length>
 Longest longest_of(std::size_t count, std::size_t most, Length&& length) {
@@ -43,7 +44,7 @@ Longest longest_of(std::size_t count, std::size_t most, Length&& length) {
 /// The distance between the lines if there are `rows` of them.
 double pitch_of(std::size_t rows);
 
-/// Lines of one colour, one per class; a triangle ends a class that never dies.
+/// Lines of one colour, one for each class. A triangle ends the line of a class that never dies.
 class Lines {
  public:
   Lines(const Axis& axis, double pitch);
@@ -59,13 +60,13 @@ class Lines {
   Outline lines_, triangles_;
 };
 
-/// The number of classes alive at each value, without those drawn as lines; it is shown as the
-/// darkness of a strip.
+/// The number of classes alive at each value, without the classes drawn as lines. It is shown as
+/// the darkness of a strip.
 class Density {
  public:
   explicit Density(const Axis& axis);
   void add(double birth, double death);
-  /// Draws the strip with its caption, kDensityHeight high.
+  /// Draws the strip with its caption. Together they have the height kDensityHeight.
   void draw(Canvas& canvas, double top, Colour colour) const;
 
  private:
@@ -76,7 +77,7 @@ class Density {
   std::vector<double> change_;  // change of the number of classes in each column
 };
 
-/// Explains the triangles, at the right, beside the name of the axis.
+/// Explains the triangles, on the right beside the name of the axis.
 void explain_triangles(Canvas& canvas, double bottom);
 
 }  // namespace ph::plot

@@ -59,7 +59,7 @@ Barcode shown_of(const Barcode& barcode, const PlotOptions& options, std::size_t
   for (const Bar& bar : barcode) {
     if (!options.dims.empty() && std::ranges::find(options.dims, bar.dim) == options.dims.end())
       continue;
-    // A point of a diagram is either on the axis or not; a line may be partly on it.
+    // A point of a diagram is either on the axis or not, but a line may be partly on the axis.
     const bool drawn = options.kind == PlotKind::diagram ? !is_off(bar.birth) && !is_off(bar.death)
                                                          : is_shown(bar.birth, bar.death, axis);
     if (drawn)

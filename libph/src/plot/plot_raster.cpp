@@ -43,7 +43,7 @@ struct Piece {
   bool closed = false;
 };
 
-/// Calls visit(piece) for each part of an outline; all parts use the memory of `piece`.
+/// Calls visit(piece) for each part of an outline. All parts use the memory of `piece`.
 template <class Visit>
 void for_each_piece(const Outline& outline, double scale, Piece& piece, Visit&& visit) {
   using Verb = Outline::Verb;
@@ -215,7 +215,7 @@ class Painter {
                                                {to.x + x, to.y + y}}});
   }
 
-  /// Adds a line along a piece; its parts meet in round joints.
+  /// Adds a line along a piece. The parts of the line meet in round joints.
   void add_stroke(const Piece& piece, double width) {
     const std::vector<Place>& corners = piece.corners;
     for (std::size_t i = 1; i < corners.size(); ++i) add_stroke(corners[i - 1], corners[i], width);

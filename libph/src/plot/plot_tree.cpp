@@ -31,7 +31,7 @@ class Layout {
   }
 
   std::size_t row(std::size_t k) const { return row_[k]; }
-  /// The position of the elder among the branches shown; kNone if the branch never dies.
+  /// The position of the elder among the branches shown, or kNone if the branch never dies.
   std::size_t elder(std::size_t k) const { return shown_elder(shown_[k]); }
 
  private:
@@ -54,7 +54,8 @@ class Layout {
   }
 
   /// Places a branch between the branches that join it. Branches that join earlier are placed
-  /// nearer to it, which avoids crossings; each is placed on the side that has fewer rows.
+  /// nearer to it, which avoids crossings. Each of these branches is placed on the side that has
+  /// fewer rows.
   void place(std::size_t k) {
     std::vector<std::size_t> above, below;
     std::size_t rows_above = 0, rows_below = 0;
@@ -76,7 +77,7 @@ class Layout {
 };
 
 /// Checks a merge tree. @throws Error (bad_data) if a value is NaN, or if the elders of a branch do
-/// not lead to one that never dies.
+/// not lead to a branch that never dies.
 void check(std::span<const Branch> tree) {
   const auto refuse = [](std::size_t i, const std::string& found, const std::string& expected) {
     throw Error(ErrorKind::bad_data,

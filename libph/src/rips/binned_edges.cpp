@@ -13,7 +13,7 @@
 namespace ph {
 namespace {
 
-// A lambda instead of the function, because a call through a pointer is not inlined.
+// This is a lambda instead of the function, because a call through a pointer is not inlined.
 constexpr auto kInOrder = [](const FlagEdge& a, const FlagEdge& b) { return precedes(a, b); };
 
 constexpr std::size_t kFew = 32;  // edges up to this number are sorted by insertion
@@ -27,7 +27,7 @@ struct Split {
 // Divides edges by the bits just below `shift`, into about as many parts as there are edges. The
 // values of all edges must agree in the bits at and above `shift`.
 Split split(std::span<FlagEdge> edges, int shift, FlagEdges& buffer) {
-  constexpr int most_bits = 12;  // keeps the counts in the cache
+  constexpr int most_bits = 12;  // this keeps the counts in the cache
   const int bits = std::min({most_bits, shift, static_cast<int>(std::bit_width(edges.size()))});
   const std::size_t parts = std::size_t{1} << bits;
   Split result{{parts, 0, buffer.get_allocator().resource()}, shift - bits};
@@ -77,7 +77,8 @@ void sort_parts(std::span<FlagEdge> edges, std::size_t begin, std::span<const st
     if (end - begin > kFew) sort_edges(edges.subspan(begin, end - begin), shift, buffer);
     begin = end;
   }
-  sort_by_insertion(edges.subspan(first, begin - first));  // all small parts at once
+  // This sorts all small parts at once.
+  sort_by_insertion(edges.subspan(first, begin - first));
 }
 
 void sort_edges(std::span<FlagEdge> edges, int shift, FlagEdges& buffer) {
@@ -161,7 +162,8 @@ void BinnedEdges::sort_ahead(std::size_t bin) const {
       FlagEdges buffer(&context->memory);
       sort_edges(edges, shift, buffer);
     } catch (...) {
-      return;  // the bin stays unsorted; the caller that needs it sorts it and gets the error
+      // The bin stays unsorted; the caller that needs it sorts it and gets the error.
+      return;
     }
     lazy->is_next_sorted = true;
   };
@@ -232,9 +234,9 @@ BinnedEdges bin_edges(FlagEdges&& edges, const RunContext& context) {
   for (const FlagEdge& e : edges) ++next[bin_of(e.value)];
   std::inclusive_scan(next.begin(), next.end(), ends.begin());
   for (std::size_t bin = 0; bin < next.size(); ++bin) next[bin] = ends[bin] - next[bin];
-  // The "American flag" sort of McIlroy, Bostic and McIlroy, Engineering radix sort (1993). An edge
-  // goes to the next place of its bin and displaces the edge there. The displaced edge moves on in
-  // the same way, until an edge arrives that belongs here.
+  // This is the "American flag" sort of McIlroy, Bostic and McIlroy, Engineering radix sort (1993).
+  // An edge moves to the next place of its bin and displaces the edge at that place. The displaced
+  // edge moves on in the same way, until an edge arrives that belongs in the first place.
   for (std::size_t bin = 0; bin < next.size(); ++bin)
     for (; next[bin] < ends[bin]; ++next[bin]) {
       FlagEdge& here = edges[next[bin]];

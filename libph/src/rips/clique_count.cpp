@@ -32,7 +32,7 @@ class Neighbours {
       ++first_[e.v];
     }
     std::partial_sum(first_.begin(), first_.end(), first_.begin());
-    for (const FlagEdge& e : graph.edges()) {  // fills each list from its end
+    for (const FlagEdge& e : graph.edges()) {  // each list is filled from its end
       lists_[--first_[e.u]] = e.v;
       lists_[--first_[e.v]] = e.u;
     }
@@ -77,10 +77,11 @@ class CliqueCounter {
   }
 
  private:
-  // The method of Knuth (1975): a random edge is extended vertex by vertex. Each vertex is chosen
-  // at random among the vertices that are joined to all vertices of the clique so far. The product
-  // of the numbers of choices estimates the number of ways to build a clique. Each clique can be
-  // built from C(d+1,2) first edges, and the rest of its vertices can be added in (d-1)! orders.
+  // This is the method of Knuth (1975). A random edge is extended vertex by vertex. Each vertex is
+  // chosen at random among the vertices that are joined to all vertices of the clique so far. The
+  // product of the numbers of choices estimates the number of ways to build a clique. Each clique
+  // can be built from C(d+1,2) first edges, and the rest of its vertices can be added in (d-1)!
+  // orders.
   std::vector<double> estimate() {
     std::vector<double> sums(top_ + 1, 0);
     const std::size_t edges = graph_.edge_count();
@@ -93,8 +94,8 @@ class CliqueCounter {
     Set set(&context_.memory), next(&context_.memory);
     Ticker ticker(context_, "cells", samples);
     for (std::size_t i = 0; i < samples; ++i) {
-      // Takes one edge from each of several equally long pieces of the order. Short and long edges
-      // are therefore sampled in proportion.
+      // One edge is taken from each of several equally long pieces of the order. Short and long
+      // edges are therefore sampled in proportion.
       const std::size_t begin = i * edges / samples, end = (i + 1) * edges / samples;
       const FlagEdge& e = graph_.edges()[begin + (end > begin ? below(end - begin) : 0)];
       intersect(neighbours_.of(e.u), neighbours_.of(e.v), set);

@@ -10,11 +10,13 @@ namespace ph {
 /// The number of cells of each dimension in a flag complex.
 struct CliqueCounts {
   std::vector<double> counts;  ///< number of cells of each dimension, without trailing zeros
-  int counted_dims = 0;        ///< dimensions below this are counted, the others estimated
+  /// Dimensions below this are counted, and the other dimensions are estimated.
+  int counted_dims = 0;
 };
 
-/// Counts the cliques of up to top + 1 vertices: one by one if there are few, otherwise by an
-/// estimate from a sample. Takes 8 bytes per edge and a fraction of a second.
+/// Counts the cliques of up to top + 1 vertices. If there are few cliques, they are counted one by
+/// one. Otherwise their number is estimated from a sample. Takes 8 bytes per edge and a fraction of
+/// a second.
 /// @throws Error (cancelled) on a stop request; Error (resource) beyond the memory limit.
 CliqueCounts count_cliques(const RipsGraph& graph, int top, const RunContext& context);
 

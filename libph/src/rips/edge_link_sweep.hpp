@@ -22,18 +22,19 @@
 
 namespace ph {
 
-/// Computes H0 to H3 of a Vietoris-Rips filtration edge by edge; triangles are never listed.
+/// Computes H0 to H3 of a Vietoris-Rips filtration edge by edge, without listing triangles.
 ///
-/// The triangles that enter with an edge e = (u,v) are those over its link, the vertices already
-/// joined to both u and v. All triangles over one connected component of the link are equivalent:
-/// one triangle per component carries H1 (Koyama, Mémoli, Robins, Turner, Faster computation of
-/// degree-1 persistent homology using the reduced Vietoris-Rips filtration). If the link is empty,
-/// e joins two components or gives birth to a class. Otherwise, the first triangle determines the
-/// annotation of e. For a vertex w of each further component, the sum a(u,w) + a(w,v) should equal
-/// that annotation. If it does not, the youngest generator of the difference dies. If a further
-/// component kills nothing, a class of H2 is born. An edge is *active* if it has an annotation that
-/// is not zero. For almost all edges, no edge between u or v and the link is active, and nothing
-/// can happen. See LinkLoops, LinkSurfaces, LinkVolumes and docs/explanation/engines/edge-links.md.
+/// Consider an edge e = (u,v). Its link consists of the vertices that are already joined to both u
+/// and v, and the triangles that enter with e are the triangles over this link. All triangles over
+/// one connected component of the link are equivalent, so one triangle per component determines H1
+/// (Koyama, Mémoli, Robins, Turner, Faster computation of degree-1 persistent homology using the
+/// reduced Vietoris-Rips filtration). If the link is empty, e joins two components or gives birth
+/// to a class. Otherwise, the first triangle determines the annotation of e. For a vertex w of each
+/// further component, the sum a(u,w) + a(w,v) should equal that annotation. If it does not, the
+/// youngest generator of the difference dies. If a further component kills nothing, a class of H2
+/// is born. An edge is *active* if it has an annotation that is not zero. For almost all edges, no
+/// edge between u or v and the link is active, and nothing can happen. See LinkLoops, LinkSurfaces,
+/// LinkVolumes and docs/explanation/engines/edge-links.md.
 template <Field K>
 class EdgeLinkSweep {
  public:
@@ -42,7 +43,7 @@ class EdgeLinkSweep {
   using Position = typename Observer::Position;
 
   /// @param births the births of the vertices; if empty, all vertices enter before all edges.
-  /// @param edges must outlive the sweep; bins of edges that cannot change anything are never
+  /// @param edges must outlive the sweep. Bins of edges that cannot change anything are never
   /// sorted.
   EdgeLinkSweep(std::size_t vertices, std::span<const double> births, const BinnedEdges& edges,
                 const K& field, SweepRequest wanted, Observer& observer, const RunContext& context)
@@ -69,13 +70,13 @@ class EdgeLinkSweep {
   void run();
 
  private:
-  /// True if, at present, only edges with an empty link matter.
+  /// True if only edges with an empty link matter at this time.
   bool can_skip_bins() const {
     // mutant: bins-skipped
     return !surfaces_ && !wanted_.zero_length && loops_.living_count() == 0;
   }
-  /// True if nothing happens at the edges of a bin. Such edges are not added at once; see
-  /// first_unadded_bin_.
+  /// True if nothing happens at the edges of a bin. These edges are not added at once (see
+  /// first_unadded_bin_).
   bool can_skip_bin(std::size_t bin);
   /// Adds the edges of skipped bins.
   void add_bins_until(std::size_t bin);
@@ -87,9 +88,10 @@ class EdgeLinkSweep {
   Observer& observer_;
   const RunContext& context_;
   const LinkLayout layout_;
-  ActiveEdges active_;         // edges with a non-zero annotation
-  LinkGraph graph_;            // edges so far, except the skipped ones that were not added yet
-  LinkComponents components_;  // components of the graph's link
+  ActiveEdges active_;  // edges with a non-zero annotation
+  // The edges so far, except skipped edges that were not added yet.
+  LinkGraph graph_;
+  LinkComponents components_;           // components of the graph's link
   std::pmr::vector<std::size_t> born_;  // components with which a class of H2 is born
   std::size_t first_unadded_bin_ = 0;
   std::pmr::vector<std::uint32_t> age_;  // age of each vertex
@@ -124,7 +126,7 @@ void EdgeLinkSweep<K>::run() {
 
 template <Field K>
 bool EdgeLinkSweep<K>::can_skip_bin(std::size_t bin) {
-  // A link that is not empty remains so, and an edge with such a link joins no components.
+  // A link that is not empty remains non-empty, and an edge with such a link joins no components.
   if (!can_skip_bins()) return false;
   const auto have_links = [&](std::span<const FlagEdge> edges) {
     return graph_.have_links(edges, context_);

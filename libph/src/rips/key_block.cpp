@@ -13,8 +13,8 @@ using Key = KeyBlock::Key;
 PH_FOR_EACH_TARGET
 std::uint64_t fill(std::span<const Key* const> rows, std::size_t begin, std::size_t size, Key key,
                    Key first, Key last, Key* keys) {
-  // Processes two rows at a time, so that keys are read and written only half as often. A row may
-  // be used twice.
+  // The loop processes two rows at a time, so that keys are read and written only half as often. A
+  // row may be used twice.
   const Key *first_row = rows.front() + begin, *last_row = rows.back() + begin;
   for (std::size_t i = 0; i < size; ++i)
     keys[i] = std::max(key, std::max(first_row[i], last_row[i]));

@@ -18,10 +18,10 @@ namespace ph {
 /// possible.
 ///
 /// On this cycle z_g, the generator g has the value one, younger generators have the value zero,
-/// and older ones have any value. A class of homology, given by its values under the generators, is
-/// therefore a combination of cycles z_g. The coefficients are found one after another, for the
-/// youngest generator first. The class is born with the youngest generator of the combination. See
-/// docs/explanation/engines/edge-links.md.
+/// and older generators have any value. A class of homology, given by its values under the
+/// generators, is therefore a combination of cycles z_g. The coefficients are found one after
+/// another, for the youngest generator first. The class is born with the youngest generator of the
+/// combination. See docs/explanation/engines/edge-links.md.
 template <Field K>
 class LinkCycles {
  public:
@@ -46,7 +46,7 @@ class LinkCycles {
   /// ends of its edge, which must be connected in the graph without that edge. The generator has
   /// the value one from u to v.
   void add(Vertex u, Vertex v) { paths_.push_back(shortest_path(v, u)); }
-  /// The cycle of a dead generator is no longer needed.
+  /// Frees the cycle of a dead generator, which is no longer needed.
   void erase(Generator g) { paths_[g] = Path(paths_.get_allocator()); }
 
   /// Finds a cycle on which each generator has the value that it has in `values`, and calls
@@ -97,9 +97,10 @@ class LinkCycles {
   const LinkGraph& graph_;
   Annotations<K>& annotations_;
   const K& field_;
-  std::pmr::vector<Path> paths_;  // by generator: path from the end of its edge to the start
+  // For each generator, the path from the end of its edge to the start.
+  std::pmr::vector<Path> paths_;
   std::pmr::vector<LinkGraph::Word> unvisited_;
-  std::pmr::vector<Vertex> before_;  // for each vertex: the vertex visited before it
+  std::pmr::vector<Vertex> before_;  // for each vertex, the vertex visited before it
   std::pmr::vector<Vertex> queue_;
   Sums<Generator> values_;
   Sums<std::pair<Vertex, Vertex>> terms_;

@@ -22,9 +22,9 @@
 
 namespace ph {
 
-/// Computes H1 of a Vietoris-Rips filtration edge by edge: the annotations of edges, and the
-/// births, deaths and representatives of classes. While thousands of classes are alive, a
-/// RelationSolver does this work instead.
+/// Computes H1 of a Vietoris-Rips filtration edge by edge. The class computes the annotations of
+/// edges, and the births, deaths and representatives of classes. While thousands of classes are
+/// alive, a RelationSolver does this work instead.
 template <Field K>
 class LinkLoops {
  public:
@@ -59,9 +59,9 @@ class LinkLoops {
   void give_birth(Position position, const FlagEdge& e);
   /// Reports the pair of an edge and the first triangle over it.
   void report_zero_length(Position position, const FlagEdge& e);
-  /// Annotates the edge whose link the graph holds, and kills the classes that die with further
-  /// components of the link. The link must not be empty. @param idle receives the components that
-  /// kill nothing, unless all links are wanted.
+  /// Annotates the edge whose link is stored in the graph, and kills the classes that die with
+  /// further components of the link. The link must not be empty. @param idle receives the
+  /// components that kill nothing, unless all links are wanted.
   void annotate(Position position, const FlagEdge& e, std::pmr::vector<std::size_t>& idle);
   /// Reports the classes that never die.
   void finish();
@@ -122,7 +122,8 @@ void LinkLoops<K>::report_zero_length(Position position, const FlagEdge& e) {
   const Vertex apex = graph_.global(graph_.first());
   representative_.clear();
   if (wanted_.cocycles || wanted_.cycles) representative_.push_back({position, field_.from_int(1)});
-  if (wanted_.cycles)  // the path leads from u to v, to the apex and back to u; u > v
+  // The path leads from u to v, to the apex and back to u, where u > v.
+  if (wanted_.cycles)
     for (const auto& [from, to] : {std::pair{e.v, apex}, std::pair{apex, e.u}})
       representative_.push_back(
           {observer_.position_of(from, to), field_.from_int(from > to ? 1 : -1)});

@@ -12,7 +12,7 @@
 namespace ph {
 namespace {
 
-/// Copies some rows. The memory of the copy is counted as long as it is held.
+/// Copies some rows. The memory of the copy is counted until the copy is freed.
 HeldPoints rows_of(PointsView points, std::span<const std::uint32_t> rows,
                    const RunContext& context) {
   struct Copy {
@@ -161,7 +161,7 @@ struct Maker {
   }
 };
 
-/// @throws Error (usage) on a task that no GPU can do.
+/// @throws Error (usage) if the task cannot be computed on a GPU.
 void check_device(const RipsData& data, const RipsOptions& options) {
   if (options.device == Device::cpu) return;
   std::string_view found;

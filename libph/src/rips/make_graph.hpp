@@ -29,7 +29,7 @@ Index size_of(const RipsData& data);
 /// The points that become vertices, and the births of points, as the options determine them.
 struct ChosenVertices {
   std::span<const std::uint32_t> vertices;  ///< ascending; if empty, all points are vertices
-  std::span<const double> births;           ///< of all points of the input; if empty, all are 0
+  std::span<const double> births;           ///< for all points of the input; if empty, all are 0
 };
 
 /// @throws Error (usage) on options that do not fit the data, Error (bad_data) on coordinates that

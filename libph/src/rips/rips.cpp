@@ -39,7 +39,7 @@ HeldPoints copied(PointsView points, const RunContext& context) {
 
 namespace detail {
 
-/// The data of a filtration, counted as long as a copy or a form holds them.
+/// The data of a filtration. Their memory is counted as long as a copy or a form refers to them.
 struct HeldInput {
   HeldInput(RipsData data_held, const RunContext& context)
       : data(std::move(data_held)), claim(context.memory, bytes_of(data)) {}
@@ -47,10 +47,10 @@ struct HeldInput {
   MemoryClaim claim;
 };
 
-/// A value that is made once, by the first thread that asks for it, while other threads wait. If
-/// making it is stopped or runs out of memory, nothing is kept. (std::call_once is not used: when
-/// memory has run out, an exception that passes through it ends the process, because glibc then
-/// loads the library that it needs for unwinding.)
+/// A value that is made once, by the first thread that needs it, while other threads wait. If
+/// making it is stopped or runs out of memory, nothing is kept. The class does not use
+/// std::call_once. When memory has run out, an exception that passes through std::call_once ends
+/// the process, because glibc then loads the library that it needs for unwinding.
 template <class T>
 class Once {
  public:
@@ -85,7 +85,8 @@ struct VertexChoice {
   std::optional<double> covering_radius;
 };
 
-/// A form and a context of its own, because the context of the call may end before the form does.
+/// A form together with its own context, because the context of the call may end before the form
+/// ends.
 struct MadeForm {
   /// @param counts the context that counts the memory of the form; it must outlive the form. @param
   /// call the context of the call that makes the form.
@@ -95,8 +96,8 @@ struct MadeForm {
     context.on_progress = call.on_progress;
     context.threads = call.threads;
   }
-  /// To be called when the form is complete. From then on, its memory is limited only by the
-  /// context that counts it, and nothing can stop the form.
+  /// Must be called when the form is complete. From then on, the memory of the form is limited only
+  /// by the context that counts it, and nothing can stop the form.
   void settle() {
     context.memory.set_limit(MemoryBudget::kUnlimited);
     context.stop = {};
@@ -195,7 +196,7 @@ struct Rips::State {
     return made;
   }
 
-  // Null if a graph was given, or the input was freed.
+  // The pointer is null if a graph was given, or if the input was freed.
   std::shared_ptr<const detail::HeldInput> input;
   Index size;
   RipsOptions options;

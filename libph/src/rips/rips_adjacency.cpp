@@ -51,9 +51,9 @@ void RipsAdjacency::lay_out_sparse(std::span<const FlagEdge> edges) {
   }
 }
 
-// The algorithm of Matula & Beck (1983): repeatedly removes a vertex of least degree; the largest
-// degree at removal is the degeneracy. Vertices wait in a list sorted by degree, with the start of
-// each bin.
+// Uses the algorithm of Matula & Beck (1983), which repeatedly removes a vertex of least degree.
+// The largest degree at removal is the degeneracy. Vertices wait in a list sorted by degree, with
+// the start of each bin.
 Index RipsAdjacency::degeneracy_bound(std::span<const FlagEdge> edges) const {
   const std::size_t n = size_;
   if (n == 0) return 0;

@@ -28,7 +28,7 @@ void RipsGraph::check_arguments(Index size, std::optional<double> threshold) {
 }
 
 double RipsGraph::checked_distance(Index i, Index j, double value) {
-  if (value >= 0) return value + 0.0;  // turns -0.0 into +0.0
+  if (value >= 0) return value + 0.0;  // the sum turns -0.0 into +0.0
   throw Error(ErrorKind::bad_data,
               fmt::format("distance ({}, {}): found {}, expected a number >= 0", i, j, value));
 }
@@ -117,7 +117,8 @@ RipsGraph RipsGraph::forest_on_gpu(PointsView points, std::optional<double> thre
                                    const RunContext& context) {
   check_arguments(points.rows(), threshold);
   const double limit = threshold.value_or(kNoLimit);
-  BinnedEdges edges(gpu::spanning_forest(PointMetric(points), limit, context));  // sorted
+  // The forest is sorted.
+  BinnedEdges edges(gpu::spanning_forest(PointMetric(points), limit, context));
   RipsGraph graph(points.rows(), limit, std::move(edges), context);
   graph.is_forest_ = true;
   return graph;
@@ -129,7 +130,7 @@ RipsGraph RipsGraph::forest_of_edges(Index size, std::span<const WeightedEdge> e
   const RipsGraph graph = of_edges(size, edges, threshold, context, weights);
   DisjointSets sets(static_cast<std::size_t>(size), &context.memory);
   FlagEdges forest(&context.memory);
-  for (const FlagEdge& e : graph.edges()) {  // Kruskal's algorithm
+  for (const FlagEdge& e : graph.edges()) {  // this is Kruskal's algorithm
     const std::uint32_t a = sets.find(e.u), b = sets.find(e.v);
     if (a == b) continue;
     sets.link(a, b);

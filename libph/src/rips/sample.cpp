@@ -39,7 +39,7 @@ std::vector<double> distances_of(const M& metric) {
 }
 
 /// An upper bound for the enclosing radius. For each of some sampled points, the distance to the
-/// point farthest from it is computed; the least of these distances is the bound.
+/// point farthest from it is computed. The least of these distances is the bound.
 template <Metric M>
 double radius_of(const M& metric, const RunContext& context) {
   double least = std::numeric_limits<double>::infinity();

@@ -35,8 +35,8 @@ bool starts_with_word(std::string_view cell, std::string_view word) {
                     [](char a, char b) { return a == to_lower(b); });
 }
 
-// For a decimal number that double cannot hold: true if it is too small and rounds to zero, false
-// if it is too large. The sign of its decimal exponent decides.
+// For a decimal number that double cannot represent: true if the number is too small and rounds to
+// zero, false if it is too large. The sign of its decimal exponent decides.
 bool rounds_to_zero(std::string_view cell) {
   std::size_t i = !cell.empty() && (cell[0] == '-' || cell[0] == '+') ? 1 : 0;
   std::int64_t leading = 0;  // decimal exponent of the first non-zero digit
@@ -62,7 +62,8 @@ bool rounds_to_zero(std::string_view cell) {
   std::int64_t exponent = 0;
   const auto [stop, error] = std::from_chars(cell.data() + i, cell.data() + cell.size(), exponent);
   if (error != std::errc{}) return negative;
-  exponent = std::min(exponent, std::int64_t{1} << 40);  // more than the number of digits in a line
+  // Larger than the number of digits in a line.
+  exponent = std::min(exponent, std::int64_t{1} << 40);
   return (negative ? leading - exponent : leading + exponent) < 0;
 }
 
@@ -79,19 +80,19 @@ std::string hint_for(std::string_view cell) {
   return {};
 }
 
-// The end of a quoted text, in which each quote is written twice; `begin` if there is no closing
-// quote.
+// The end of a quoted text, in which each quote is written twice. Returns `begin` if there is no
+// closing quote.
 const char* end_of_quotes(const char* begin, const char* end) {
   for (const char* close = begin;;) {
     close = std::find(close + 1, end, '"');
-    if (close == end) return begin;  // no closing quote
+    if (close == end) return begin;  // there is no closing quote
     if (close + 1 == end || close[1] != '"') return close + 1;
     ++close;
   }
 }
 
-// True if a '#' belongs to the cell that begins before it: to a word, or to 1.#INF, an old way to
-// write infinity.
+// True if a '#' belongs to the cell that begins before it. The cell may be a word or 1.#INF, an old
+// way to write infinity.
 bool is_in_cell(const char* cell, const char* hash) {
   if (cell == hash) return false;
   if (*cell == '-' || *cell == '+') ++cell;
@@ -99,7 +100,7 @@ bool is_in_cell(const char* cell, const char* hash) {
   return !is_number || hash[-1] == '.';
 }
 
-// The start of a line's comment, or the end of the line if there is none.
+// The start of a line's comment, or the end of the line if it has no comment.
 const char* start_of_comment(const char* begin, const char* end) {
   constexpr std::array<std::string_view, 7> kSpreadsheetErrors{
       "#N/A", "#DIV/0!", "#VALUE!", "#REF!", "#NUM!", "#NAME?", "#NULL!"};
@@ -214,7 +215,7 @@ T Cells::floating(Allow allow) {
   const char* digits = begin;
   const bool in_quotes = begin != end_ && *begin == '"';
   if (in_quotes) ++digits;
-  // from_chars accepts no plus sign
+  // The function from_chars accepts no plus sign.
   if (digits != end_ && *digits == '+' && end_ - digits > 1 && digits[1] != '-') ++digits;
   T value = 0;
   const auto [last, error] = floating_from_chars(digits, end_, value);
@@ -248,7 +249,7 @@ T Cells::floating(Allow allow) {
     }
   }
   after_cell(stop);
-  return value + T{0};  // turns -0.0 into +0.0
+  return value + T{0};  // the sum turns -0.0 into +0.0
 }
 
 template float Cells::floating<float>(Allow);

@@ -20,19 +20,20 @@ inline double squared_distance(const double* x, const double* y, Index axes) {
   for (Index k = 0; k < axes; ++k) sum += (x[k] - y[k]) * (x[k] - y[k]);
   return sum;
 }
-/// A bound for computed squares of gaps. If the square computed for two points exceeds it, their
-/// distance exceeds the root of `square`. A sum of squares has a relative error of at most (axes +
-/// 2) · 2^-53; below 1e-280, the error is arbitrary. The bound need not be tight.
+/// A bound for computed squares of gaps. If the square computed for two points exceeds this bound,
+/// the distance of the points exceeds the root of `square`. A sum of squares has a relative error
+/// of at most (axes + 2) · 2^-53. Below 1e-280, the error is arbitrary. The bound need not be
+/// tight.
 inline double reach_of(double square) {
   constexpr double slack = 1 + 1e-12, least = 4 * kSmallestPlain * kSmallestPlain;
   return std::max(square, least) * slack;
 }
 
-/// For each cell: the box around all or some of its points, and the largest distance of these
+/// For each cell, the box around all or some of its points, and the largest distance of these
 /// points from the sample point of the cell.
 class CellBoxes {
  public:
-  /// Makes empty boxes. @param count their number.
+  /// Makes empty boxes. @param count the number of boxes.
   CellBoxes(std::size_t count, Index axes, const RunContext& context)
       : axes_(axes), sides_(count * box_size(), &context.memory), squares_(count, &context.memory) {
     for (std::size_t i = 0; i < sides_.size(); i += 2) {
@@ -58,7 +59,8 @@ class CellBoxes {
     }
     squares_[i] = std::max(squares_[i], others.squares_[j]);
   }
-  /// Smallest and largest coordinate, axis by axis; infinite if there are no points.
+  /// The smallest and the largest coordinate of a box, axis by axis. They are infinite if the box
+  /// has no points.
   std::span<const double> box(std::size_t i) const {
     return {sides_.data() + i * box_size(), box_size()};
   }

@@ -54,8 +54,8 @@ CloudBlocks::CloudBlocks(PointsView points, std::size_t sample, std::uint32_t bl
       sizes_(mine.size()),
       first_block_(mine.begin) {
   if (tree_.cell_count() == 0) return;
-  // The last bit of a distance depends on the entire cloud, namely on whether the squares of the
-  // cloud's coordinate differences stay in range.
+  // The last bit of a distance depends on the entire cloud, because it depends on whether the
+  // squares of the cloud's coordinate differences stay in range.
   bottlenecks_.emplace(tree_, 0, context);
   scan(mine, context);
   const auto is_plain = [&](double largest) {
@@ -186,7 +186,7 @@ NumberedForest CloudBlocks::forest(std::uint32_t block, double limit,
   return result;
 }
 
-/// Claims for the edges of the sample's spanning tree that begin in the block.
+/// Returns claims for the edges of the sample's spanning tree that begin in the block.
 NumberedForest CloudBlocks::sample_claims(std::uint32_t block, double limit,
                                           const RunContext& context) const {
   NumberedForest claims(context);

@@ -14,8 +14,8 @@
 namespace ph {
 
 /// Some blocks of a cloud. Computes, block by block, the edges of the cloud's minimum spanning
-/// forest that have an end in the block. It reads the entire cloud once when it is made and once
-/// per block, and holds only one block and the points near it.
+/// forest that have an end in the block. The class reads the entire cloud once when it is made and
+/// once per block. It keeps only one block and the points near it in memory.
 class CloudBlocks {
  public:
   /// @param points must have at least one coordinate.
@@ -26,17 +26,17 @@ class CloudBlocks {
 
   /// A fingerprint of all coordinates of the cloud.
   std::uint64_t fingerprint() const { return fingerprint_; }
-  /// The fingerprint of a cloud without making blocks, in O(coordinates).
+  /// The fingerprint of a cloud, computed without making blocks, in O(coordinates).
   static std::uint64_t fingerprint_of(PointsView points);
   /// Number of points in the blocks.
   Index size() const { return size_; }
-  /// Contains all edges that this block must find: edges of the cloud's minimum spanning forest
-  /// that have an end in the block. May contain other edges as well.
+  /// The forest contains all edges that this block must find, which are the edges of the cloud's
+  /// minimum spanning forest that have an end in the block. It may also contain other edges.
   /// docs/explanation/engines/cloud-parts.md explains claims.
   NumberedForest forest(std::uint32_t block, double limit, const RunContext& context) const;
 
  private:
-  /// The points of a block, and those near it.
+  /// The points of a block, and the points near it.
   struct Members;
   void scan(SampleTree::Range mine, const RunContext& context);
   SampleTree::Range cells_of(std::uint32_t block) const {
@@ -47,7 +47,8 @@ class CloudBlocks {
   PointsView points_;
   SampleTree tree_;
   SampleTree::Cell first_cell_;
-  CellBoxes boxes_;  // two per cell, for the cells since first_cell_: see NearPoints
+  // Two boxes per cell, for the cells since first_cell_ (see NearPoints).
+  CellBoxes boxes_;
   std::vector<Index> sizes_;
   std::uint32_t first_block_;
   double largest_ = 0;

@@ -77,8 +77,8 @@ NearPoints::NearPoints(const SampleTree& tree, const Bottlenecks& bottlenecks,
   mark(SampleTree::kRoot, regions);
 }
 
-// With the blocks in a circle, each block looks for edges to the half of the circle ahead of it. If
-// two blocks are opposite each other, their parity decides.
+// The blocks form a circle, and each block looks for edges to the half of the circle ahead of it.
+// If two blocks are opposite each other, their parity decides which block looks for edges.
 bool NearPoints::looks_for(std::uint32_t block, std::uint32_t other, std::uint32_t blocks) {
   if (block == other) return false;
   const std::uint64_t ahead = (std::uint64_t{other} + blocks - block) % blocks;
@@ -86,7 +86,8 @@ bool NearPoints::looks_for(std::uint32_t block, std::uint32_t other, std::uint32
   return (std::min(block, other) % 2 == 0) == (block < other);  // mutant: cloud-opposite
 }
 
-/// Sets the kinds of a node and of the nodes below it. @return true if any of them is not hopeless.
+/// Sets the kinds of a node and of the nodes below it. @return true if any of these nodes is not
+/// hopeless.
 bool NearPoints::mark(Node node, const CellRegions& regions) {
   if (node == own_) {
     kinds_[node] = Kind::own;
@@ -110,7 +111,7 @@ bool NearPoints::mark(Node node, const CellRegions& regions) {
 }
 
 // The caller only compares the gap with the result. The bottleneck between two cells takes time to
-// compute. It is therefore computed only if the comparison depends on it.
+// compute. It is therefore computed only if the outcome of the comparison depends on it.
 double NearPoints::reach(Node own, double square, double within, SampleTree::Cell cell,
                          double gap) const {
   const double least = reach_of(
@@ -129,7 +130,8 @@ bool NearPoints::may_be_near(Node node, const CellRegions& regions) const {
     const double gap = boxes_.gap(own - own_, box, box + 1, 2);
     const double farthest = std::max(boxes_.square(own - own_), square);
     if (gap > reach(own, farthest, within, cells.begin, gap)) return false;
-    // Goes on to the children of `own` as long as it has more cells than the other node.
+    // The search continues with the children of `own` as long as `own` has more cells than the
+    // other node.
     if (tree_.is_leaf(own) || tree_.cells(own).size() <= cells.size()) return true;
     return self(self, tree_.left(own)) || self(self, tree_.right(own));
   };

@@ -10,12 +10,12 @@
 
 namespace ph {
 
-/// For each node of the tree: a box around all points of the cloud that can lie in the node, and
-/// the largest possible distance from a point of that box to the sample. Both follow from the
-/// splits of the tree and from a box around all points of the cloud.
+/// For each node of the tree, a box around all points of the cloud that can be in the node, and the
+/// largest possible distance from a point of that box to the sample. The box and the distance
+/// follow from the splits of the tree and from a box around all points of the cloud.
 class CellRegions {
  public:
-  /// @param box around all points: the smallest and the largest coordinate on each axis.
+  /// @param box the box around all points, as the smallest and the largest coordinate on each axis.
   CellRegions(const SampleTree& tree, std::span<const double> box, const RunContext& context);
   const CellBoxes& boxes() const { return boxes_; }  ///< one box per node
 
@@ -27,18 +27,20 @@ class CellRegions {
 
 /// Finds the points of other blocks that may have an edge to a block in the minimum spanning tree
 /// of the entire cloud. An edge (u, x) is not in that tree if shorter hops lead from u to x in
-/// three stages: from u to a sample point in its own block, from there through the sample to a
-/// sample point in the block of x, and finally to x. A point x is left out if this holds for all
-/// points u of the block; see docs/explanation/engines/cloud-parts.md.
+/// three stages. The first stage leads from u to a sample point in its own block. The second stage
+/// leads through the sample to a sample point in the block of x. The third stage leads to x. A
+/// point x is left out if this holds for all points u of the block (see
+/// docs/explanation/engines/cloud-parts.md).
 class NearPoints {
  public:
   using Node = SampleTree::Node;
 
   /// @param boxes two boxes per cell, around the points for which the sample point of the cell is
-  /// the nearest: the first box for points near it (see Bottlenecks::square_around), the second for
-  /// all others. They must outlive this object.
+  /// the nearest. The first box is for points near the sample point (see
+  /// Bottlenecks::square_around), and the second box is for all other points. The boxes must
+  /// outlive this object.
   /// @param first_cell the position of the block's first cell in `boxes`.
-  /// @param block must not be empty. @param limit longer edges are not wanted.
+  /// @param block must not be empty. @param limit the length beyond which edges are not wanted.
   NearPoints(const SampleTree& tree, const Bottlenecks& bottlenecks, const CellRegions& regions,
              const CellBoxes& boxes, std::size_t first_cell, std::uint32_t block, double limit,
              const RunContext& context);
@@ -53,8 +55,8 @@ class NearPoints {
     return is_near(x, node) ? Place::near : Place::elsewhere;
   }
 
-  /// True if it is `block`, not `other`, that looks for edges between the two. Each block does so
-  /// for half of the other blocks.
+  /// True if `block`, and not `other`, looks for edges between the two blocks. Each block looks for
+  /// edges to half of the other blocks.
   static bool looks_for(std::uint32_t block, std::uint32_t other, std::uint32_t blocks);
 
  private:

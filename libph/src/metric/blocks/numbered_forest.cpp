@@ -62,7 +62,7 @@ Merged merged(const std::pmr::vector<Index>& a, const std::pmr::vector<Index>& b
   return all;
 }
 
-/// Merges two lists of edges; both are left empty.
+/// Merges two lists of edges, and leaves both lists empty.
 FlagEdges merged(FlagEdges& a, FlagEdges& b, const Merged& all, const RunContext& context) {
   const auto renumber = [](FlagEdges& edges, const std::pmr::vector<std::uint32_t>& places) {
     for (FlagEdge& e : edges) e = {e.value, places[e.u], places[e.v]};

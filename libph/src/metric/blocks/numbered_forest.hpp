@@ -8,9 +8,9 @@
 
 namespace ph {
 
-/// The minimum spanning forest of some edges between points of a cloud, and claims that must hold
-/// for the forest of the entire cloud. Joining two of these objects gives the forest of all edges
-/// of both. The result is the same, byte for byte, whatever the order of joins.
+/// The minimum spanning forest of some edges between points of a cloud, and claims that must be
+/// true for the forest of the entire cloud. Joining two of these objects gives the forest of all
+/// edges of both objects. The result is the same, byte for byte, for any order of joins.
 struct NumberedForest {
   explicit NumberedForest(const RunContext& context)
       : numbers(&context.memory), edges(&context.memory), claims(&context.memory) {}
@@ -19,13 +19,13 @@ struct NumberedForest {
   /// positions in this list.
   std::pmr::vector<Index> numbers;
   FlagEdges edges;  ///< sorted
-  /// Sorted. A claim says that its ends are joined by edges no longer than its value. Claims that
-  /// already hold are left out.
+  /// The claims, in sorted order. A claim says that its ends are joined by edges no longer than its
+  /// value. Claims that are already fulfilled are left out.
   FlagEdges claims;
 
   /// Joins another forest into this one. @param context counts the memory that is needed during the
   /// call.
-  /// @throws Error (resource) if together they have 2^32 - 1 points or more.
+  /// @throws Error (resource) if the two forests together have 2^32 - 1 points or more.
   void join(NumberedForest other, const RunContext& context);
   /// Keeps the edges that Kruskal's algorithm takes, and the claims that are still open.
   void reduce(const RunContext& context);

@@ -62,7 +62,7 @@ SampleTree::SampleTree(PointsView points, std::size_t sample, std::uint32_t bloc
 }
 
 // Draws one point from each of `sample` ranges of equal length, because consecutive points in a
-// file are usually close. Of several equal points, the first is kept.
+// file are usually close. If several drawn points are equal, the first of them is kept.
 void SampleTree::draw(PointsView points, std::size_t sample, const RunContext& context) {
   const auto n = static_cast<std::uint64_t>(points.rows());
   const Index axes = points.cols();
@@ -154,7 +154,8 @@ NearSample nearest_sample(const SampleTree& tree, std::uint32_t block, const dou
     SampleTree::Node node;
     double gap;  // a lower bound for the squared distance to the node
   };
-  std::array<Entry, 64> stack;  // one entry per level; a set of points cannot be halved more often
+  // There is one entry per level; a set of points cannot be halved more often.
+  std::array<Entry, 64> stack;
   std::size_t height = 0;
   stack[height++] = {tree.node_of_block(block), 0};
   while (height > 0) {

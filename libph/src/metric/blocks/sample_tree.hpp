@@ -10,14 +10,14 @@
 
 namespace ph {
 
-/// Divides space into blocks that hold about equally many points of a cloud, and each block into
-/// cells. It is a k-d tree (Bentley 1975) over a sample of the cloud, and its leaves, the cells,
-/// contain one point of the sample each. The division depends only on comparisons and is therefore
-/// the same in every process that knows the cloud. Equal points lie in the same cell, and each
-/// point of the sample lies in its own cell.
+/// Divides space into blocks that contain about equally many points of a cloud, and each block into
+/// cells. It is a k-d tree (Bentley 1975) over a sample of the cloud. Its leaves are the cells,
+/// each of which contains one point of the sample. The division depends only on comparisons and is
+/// therefore the same in every process that knows the cloud. Equal points are in the same cell, and
+/// each point of the sample is in its own cell.
 ///
-/// Cells are numbered from one side to the other, and so are blocks: a block consists of
-/// consecutive cells.
+/// Cells are numbered from one side to the other. Blocks are numbered in the same way, and a block
+/// consists of consecutive cells.
 class SampleTree {
  public:
   using Node = std::uint32_t;
@@ -28,10 +28,10 @@ class SampleTree {
     std::uint32_t size() const { return end - begin; }
   };
 
-  /// @param points one per row. @param sample the number of points to draw: at most all points, and
-  /// fewer than 2^31. @param blocks at least one; if there are more blocks than distinct points,
-  /// some are empty.
-  /// @throws Error (bad_data) on a coordinate that is not finite, if it reads one.
+  /// @param points one per row. @param sample the number of points to draw, which must be at most
+  /// the number of all points and less than 2^31. @param blocks at least one; if there are more
+  /// blocks than distinct points, some blocks are empty.
+  /// @throws Error (bad_data) if it reads a coordinate that is not finite.
   SampleTree(PointsView points, std::size_t sample, std::uint32_t blocks,
              const RunContext& context);
 
@@ -41,8 +41,8 @@ class SampleTree {
   /// The number of the cell's sample point in the cloud.
   Index number(Cell cell) const { return numbers_[cell]; }
 
-  /// Children come after their parent, the left one directly after it; all nodes below a node are
-  /// consecutive.
+  /// Children come after their parent, and the left child comes directly after it. All nodes below
+  /// a node are consecutive.
   std::uint32_t node_count() const { return static_cast<std::uint32_t>(splits_.size()); }
   bool is_leaf(Node node) const { return splits_[node].right == 0; }
   Node left(Node node) const { return node + 1; }
@@ -51,13 +51,13 @@ class SampleTree {
   Node end_below(Node node) const {
     return cells(node).size() == 0 ? node + 1 : node + 2 * cells(node).size() - 1;
   }
-  /// The cells of a node. A leaf has one cell, or none if it is empty.
+  /// The cells of a node. A leaf has one cell, or no cell if it is empty.
   Range cells(Node node) const { return cells_[node]; }
   Range blocks(Node node) const { return blocks_[node]; }
   /// The node that consists of exactly this block.
   Node node_of_block(std::uint32_t block) const { return block_nodes_[block]; }
-  /// The split of a node: coordinates on the left are at most this value, coordinates on the right
-  /// at least. If the value is -infinity, all points are on the right.
+  /// The split of a node. Coordinates on the left are at most this value, and coordinates on the
+  /// right are at least this value. If the value is -infinity, all points are on the right.
   std::uint32_t axis(Node node) const { return splits_[node].axis; }
   double value(Node node) const { return splits_[node].value; }
 
@@ -75,11 +75,12 @@ class SampleTree {
     double value;
     Node right;  // 0 for a leaf
     std::uint32_t axis;
-    std::uint32_t point;  // first point on the right: its row in drawn_, later its cell
+    // The first point on the right, first as its row in drawn_, later as its cell.
+    std::uint32_t point;
   };
   /// True if x comes before the first point on the right. Coordinates are compared one after
-  /// another, beginning at the axis of the split; after the last axis, the comparison goes on at
-  /// the first.
+  /// another, beginning at the axis of the split. After the last axis, the comparison continues
+  /// with the first axis.
   bool precedes(const double* x, const Split& split) const;
   void draw(PointsView points, std::size_t sample, const RunContext& context);
   void split(Range cells, Range blocks, std::span<std::uint32_t> order);
@@ -96,14 +97,14 @@ struct NearSample {
   SampleTree::Cell cell;
   double square;
 };
-/// Of the sample points in a block, the one that is nearest to x. @param known any sample point of
-/// the block, from which the search starts.
+/// The sample point in a block that is nearest to x. @param known any sample point of the block,
+/// from which the search starts.
 NearSample nearest_sample(const SampleTree& tree, std::uint32_t block, const double* x,
                           NearSample known);
 
 /// The bottleneck distances between points of a sample. The bottleneck of two points is the least
-/// number r such that hops of length at most r within the sample lead from one to the other: the
-/// longest edge between them in a minimum spanning tree.
+/// number r such that hops of length at most r within the sample lead from one point to the other.
+/// It equals the longest edge between them in a minimum spanning tree.
 class Bottlenecks {
  public:
   /// @param largest the largest coordinate of the cloud, as for PointMetric.
@@ -119,8 +120,8 @@ class Bottlenecks {
     }
     return longest;
   }
-  /// The square of twice the least bottleneck between this cell and another cell. If a point of the
-  /// cell is at most as far from the sample as the root of this, its distance from the sample does
+  /// The square of twice the least bottleneck between this cell and another cell. If the distance
+  /// of a point of the cell from the sample is at most the root of this square, this distance does
   /// not make longer edges possible.
   double square_around(SampleTree::Cell cell) const {
     const double twice = 2 * first_[cell];

@@ -20,14 +20,15 @@
 
 namespace ph {
 
-/// The classes of edges with respect to the living generators of H^1. Each generator is a cocycle,
-/// and the annotation of an edge (Busaryev, Cabello, Chen, Dey, Wang, Annotating simplices with a
-/// homology basis) is the vector of the generators' values on it. Edges of the same class share one
-/// vector; an edge that was never annotated has the zero vector. Annotations are alternating:
-/// a(u,v) = -a(v,u).
+/// The classes of edges with respect to the living generators of H^1. Each generator is a cocycle.
+/// The annotation of an edge (Busaryev, Cabello, Chen, Dey, Wang, Annotating simplices with a
+/// homology basis) is the vector of the generators' values on the edge. Edges of the same class
+/// share one vector. An edge that was never annotated has the zero vector. Annotations are
+/// alternating: a(u,v) = -a(v,u).
 ///
-/// Dead generators are replaced in a class when it is next asked for. Until then, two classes that
-/// became equal may still be separate, and edges of a class that became zero may still be active.
+/// Dead generators are replaced in a class when the class is next requested. Until then, two
+/// classes that became equal may still be separate, and edges of a class that became zero may still
+/// be active.
 template <Field K>
 class Annotations {
  public:
@@ -44,7 +45,7 @@ class Annotations {
     friend bool operator==(const Class&, const Class&) = default;
   };
 
-  /// @param edges receives the edges of non-zero class, and must be empty at first; it must outlive
+  /// @param edges receives the edges of non-zero class. It must be empty at first, and must outlive
   /// this object. @param keeps_values true if for_each_value will be called.
   Annotations(const K& field, ActiveEdges& edges, bool keeps_values,
               std::pmr::memory_resource* memory)
@@ -77,14 +78,14 @@ class Annotations {
     std::uint32_t position;  ///< any number
   };
 
-  /// Adds a generator whose value is one on a new edge and zero on all others.
+  /// Adds a generator whose value is one on a new edge and zero on all other edges.
   void add_generator(const Edge& edge) {
     scratch_.clear();
     scratch_.emplace_back(add_generator(edge.position), field_.from_int(1));
     assign(edge, intern());
   }
   /// Adds a generator whose value is zero on all edges so far. @param birth the position of the
-  /// edge that gives birth to it.
+  /// edge that gives birth to the generator.
   Generator add_generator(std::uint32_t birth) {
     births_.push_back(birth);
     if (keeps_values_) occurrences_.emplace_back();
@@ -119,7 +120,7 @@ class Annotations {
     if (!a.is_zero()) *label = label_of(a);  // otherwise the edge is no longer active
     return a;
   }
-  /// Annotates an edge for the first time, with a(u,v), which must not be zero.
+  /// Annotates an edge for the first time. The annotation is a(u,v), which must not be zero.
   void assign(const Edge& edge, Class a) {
     members_[a.id].push_back(edge);
     edges_.insert(edge.u, edge.v, label_of(a), label_of(-a));
@@ -147,7 +148,7 @@ class Annotations {
   void kill(Class relation);
 
   /// Calls `visit(edge, value)` for the edges on which a living generator is not zero. Together
-  /// they are a cocycle.
+  /// these edges and values are a cocycle.
   template <class Visit>
   void for_each_value(Generator g, Visit&& visit);
 
@@ -174,11 +175,11 @@ class Annotations {
   bool are_opposite(std::uint32_t a, std::uint32_t b) const {
     return vectors_[a].back().coefficient() != vectors_[b].back().coefficient();
   }
-  /// The present form of a class that was returned earlier: dead generators are substituted, and
-  /// the class may have been merged into another.
+  /// The current form of a class that was returned earlier. Dead generators are substituted, and
+  /// the class may have been merged into another class.
   Class resolve(Class a);
-  /// Follows the links of classes that became equal to others. DisjointSets cannot be used, because
-  /// a link has a sign.
+  /// Follows the links of classes that became equal to other classes. DisjointSets cannot be used,
+  /// because a link has a sign.
   Class follow(Class a);
   /// Substitutes all dead generators in a class.
   void update(std::uint32_t id);
@@ -186,9 +187,10 @@ class Annotations {
   void erase(std::uint32_t id);
   /// Merges a class into another class to which it has become equal up to sign.
   void join(std::uint32_t id, std::uint32_t other);
-  /// Updates occurrences_ after the terms of a class have changed. @param before its former terms.
+  /// Updates occurrences_ after the terms of a class have changed. @param before the former terms
+  /// of the class.
   void change_occurrences(std::uint32_t id, const Vector& before);
-  /// Finds the class of the vector in scratch_, or makes it.
+  /// Finds the class of the vector in scratch_. If there is no such class, makes it.
   Class intern();
   /// Makes room for one more class.
   void add_class();
@@ -210,7 +212,7 @@ class Annotations {
   static void release(T& vector) {
     T(vector.get_allocator()).swap(vector);
   }
-  /// The term of a generator in v, or null if v has none.
+  /// The term of a generator in v, or null if v has no such term.
   const Term* find(const Vector& v, Generator g) const {
     const auto it = std::ranges::lower_bound(v, g, {}, &Term::cell);
     return it != v.end() && it->cell == g ? &*it : nullptr;
@@ -223,13 +225,13 @@ class Annotations {
   std::pmr::vector<Vector> vectors_;                  // vector of each class
   std::pmr::vector<std::size_t> hashes_;              // hash of each class
   std::pmr::vector<std::pmr::vector<Edge>> members_;  // edges of each class
-  // For each class: the class that it became, or the class itself as long as it exists.
+  // For each class, the class that it became, or the class itself as long as it exists.
   std::pmr::vector<Class> links_;
   std::pmr::vector<std::uint32_t> seen_;    // number of deaths substituted in each class
   std::pmr::vector<std::uint32_t> fresh_;   // classes made since the last kill
   std::pmr::vector<std::uint32_t> unused_;  // numbers of classes that may be used again
   DeadGenerators<K> dead_;
-  // For each generator: the classes in which it occurs, if values are kept.
+  // For each generator, the classes in which it occurs, if values are kept.
   std::pmr::vector<NumberSet> occurrences_;
   FlatMap<Class> sums_;  // sums of two classes, until the next kill
   std::pmr::unordered_set<std::uint32_t, Hash, Equal> known_;
@@ -259,7 +261,7 @@ auto Annotations<K>::follow(Class a) -> Class {
   while (links_[a.id].id != a.id) {
     const Class up = links_[a.id];
     const Class further = links_[up.id];
-    links_[a.id] = up.negated ? -further : further;  // halves the path
+    links_[a.id] = up.negated ? -further : further;  // this halves the path
     const Class next = links_[a.id];
     a = a.negated ? -next : next;
   }
@@ -315,7 +317,7 @@ void Annotations<K>::update(std::uint32_t id) {
   if (!dead_.occur_in(vector)) return;
   auto node = known_.extract(id);
   if constexpr (std::same_as<K, Z2>) {
-    dead_.eliminate_from(vector);  // kill changes all occurrences at once
+    dead_.eliminate_from(vector);  // a death changes all occurrences at once
   } else {
     if (keeps_values_) scratch_.assign(vector.begin(), vector.end());
     dead_.eliminate_from(vector);

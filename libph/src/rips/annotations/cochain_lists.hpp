@@ -13,9 +13,10 @@
 
 namespace ph {
 
-/// A cochain of a flag complex, stored as lists of the simplices on which it is not zero: each
-/// simplex is in the list of each of its vertices. The list of a vertex a holds, for each such
-/// simplex, its other vertices and the value of the cochain on (a, others in ascending order).
+/// A cochain of a flag complex, stored as lists of the simplices on which it is not zero. Each of
+/// these simplices is in the list of each of its vertices. The entry of a simplex in the list of a
+/// vertex a consists of the other vertices of the simplex and the value of the cochain on (a,
+/// others in ascending order).
 /// @tparam Others a number that encodes the other vertices of a simplex.
 template <Field K, class Others>
 class CochainLists {
@@ -52,7 +53,7 @@ class CochainLists {
   }
 
   /// Adds scale * other. Calls `on_enter(a, list)` for vertices that get a list, and `on_leave(a)`
-  /// for vertices that lose theirs.
+  /// for vertices that lose their list.
   template <class OnEnter, class OnLeave>
   void add(CochainLists& other, Element scale, Shared& shared, OnEnter&& on_enter,
            OnLeave&& on_leave);
@@ -124,7 +125,8 @@ void CochainLists<K, Others>::add(CochainLists& other, Element scale, Shared& sh
                                   OnEnter&& on_enter, OnLeave&& on_leave) {
   sort(shared);
   other.sort(shared);
-  // Lists lie at random places in memory: all are prefetched before the first is used.
+  // Lists are at random places in memory. All lists are therefore prefetched before the first list
+  // is used.
   auto& lists = shared.lists;
   auto& own = shared.own;
   own.clear();

@@ -17,8 +17,9 @@
 namespace ph {
 
 /// The generators that died. Each of them is a combination of older generators, some of which may
-/// have died later. Dead generators are substituted in a vector when it is read, in one pass for
-/// all deaths since it was last read, because most deaths never affect most vectors.
+/// have died later. Dead generators are substituted in a vector when the vector is read, in one
+/// pass for all deaths since it was last read. The reason is that most deaths never affect most
+/// vectors.
 template <Field K>
 class DeadGenerators {
  public:
@@ -63,7 +64,8 @@ class DeadGenerators {
     std::uint32_t bits = kNone;  // index into bits_
     std::uint32_t seen = 0;      // number of deaths already substituted in it
   };
-  /// A vector over Z/2 with many terms, as one bit per generator, which is faster to add.
+  /// A vector over Z/2 with many terms, stored as one bit per generator. This form is faster to
+  /// add.
   struct Bits {
     using allocator_type = std::pmr::polymorphic_allocator<>;
     explicit Bits(allocator_type allocator) : words(allocator) {}
@@ -125,15 +127,15 @@ class DeadGenerators {
 
   Word dead_word(std::size_t k) const { return k < dead_.size() ? dead_[k] : 0; }
   bool occur_in(const Combination& c) const;
-  /// sum += scale * combination.
+  /// Computes sum += scale * combination.
   void add(Accumulator& sum, const Combination& c, Element scale) const {
     if (kIsZ2 && c.bits != kNone)
       sum.add(bits_[c.bits]);
     else
       sum.add(c.terms, scale, field_);
   }
-  /// The combination that replaces a dead generator. Later deaths are first substituted in it, and
-  /// the result is stored, which saves work for the next caller.
+  /// The combination that replaces a dead generator. Later deaths are first substituted in the
+  /// combination. The result is stored, which saves work for the next caller.
   const Combination& updated(Generator g);
   /// @param combination_of returns the replacement of a dead generator.
   template <class Find>
@@ -148,7 +150,8 @@ class DeadGenerators {
   std::pmr::vector<Combination> combinations_;  // by generator; empty for living generators
   std::pmr::vector<Bits> bits_;
   std::pmr::vector<Word> dead_;  // one bit per generator
-  // There are two accumulators, because a combination may be updated while a vector is.
+  // There are two accumulators, because a combination may be updated while a vector is being
+  // updated.
   Accumulator for_vectors_, for_combinations_;
 };
 
@@ -204,7 +207,8 @@ template <Field K>
 template <class Find>
 void DeadGenerators<K>::eliminate(Accumulator& sum, Find&& combination_of) {
   Word* const met = sum.met.data();
-  // Goes from the youngest generator down, because substitution adds only older generators.
+  // The loop goes down from the youngest generator, because substitution adds only older
+  // generators.
   for (std::size_t k = std::min(sum.end, dead_.size()); k-- > sum.begin;)
     while (const Word dead = met[k] & dead_[k]) {  // mutant: dead-by-dead
       const auto bit = static_cast<std::size_t>(std::bit_width(dead)) - 1;

@@ -11,8 +11,8 @@
 
 namespace ph {
 
-/// An alternating function of two vertices of a link, which is a 1-cochain of its flag complex: a
-/// row f(x,.) for each vertex x on which it is not zero.
+/// An alternating function of two vertices of a link, which is a 1-cochain of the flag complex of
+/// the link. It is stored as a row f(x,.) for each vertex x on which it is not zero.
 template <Field K>
 class LinkPairs {
  public:
@@ -25,7 +25,7 @@ class LinkPairs {
   LinkPairs(RowPool<K>& rows, const K& field, std::pmr::memory_resource* memory)
       : rows_(&rows), field_(&field), ids_(memory), used_(memory) {}
 
-  /// f(x,.), or null if it is zero.
+  /// Returns f(x,.), or null if the row is zero.
   const Unit* row(Vertex x) const {
     return x < ids_.size() && ids_[x] != kNone ? (*rows_)[ids_[x]] : nullptr;
   }
@@ -48,7 +48,8 @@ class LinkPairs {
     for (const Vertex x : used_) rows_->give(std::exchange(ids_[x], kNone));
     used_.clear();
   }
-  /// Calls `visit(x, y, f(x,y))` for all pairs in both orders; the pairs of one x are consecutive.
+  /// Calls `visit(x, y, f(x,y))` for all pairs in both orders. The pairs with the same x are
+  /// consecutive.
   template <class Visit>
   void for_each(std::size_t words, Visit&& visit) const {
     for (const Vertex x : used_)
@@ -75,8 +76,8 @@ class LinkPairs {
   std::pmr::vector<Vertex> used_;
 };
 
-/// An alternating function of three vertices of a link, which is a 2-cochain of its flag complex: a
-/// row f(x,y,.) for each pair x < y on which it is not zero.
+/// An alternating function of three vertices of a link, which is a 2-cochain of the flag complex of
+/// the link. It is stored as a row f(x,y,.) for each pair x < y on which it is not zero.
 template <Field K>
 class LinkTriples {
  public:
@@ -89,14 +90,14 @@ class LinkTriples {
   LinkTriples(RowPool<K>& rows, const K& field, std::pmr::memory_resource* memory)
       : rows_(&rows), field_(&field), ids_(memory), used_(memory) {}
 
-  /// f(x,y,.) if x < y, otherwise -f(x,y,.); null if it is zero.
+  /// Returns f(x,y,.) if x < y, otherwise -f(x,y,.). Returns null if the row is zero.
   const Unit* row(Vertex x, Vertex y) const {
     if (x > y) std::swap(x, y);
     if (x >= ids_.size() || y >= ids_[x].size()) return nullptr;
     const Id id = ids_[x][y];
     return id == kNone ? nullptr : (*rows_)[id];
   }
-  /// f(x,y,z) += a, x < y < z.
+  /// Computes f(x,y,z) += a for x < y < z.
   void add_at(Vertex x, Vertex y, Vertex z, Element a) {
     Function::add_at(made_row(x, y), z, a, *field_);
     Function::add_at(made_row(x, z), y, field_->negate(a), *field_);

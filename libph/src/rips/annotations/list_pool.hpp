@@ -8,7 +8,7 @@
 
 namespace ph {
 
-/// A pool that hands out empty lists and takes lists back.
+/// A pool that lends empty lists and takes lists back.
 template <class T>
 class ListPool {
  public:
@@ -30,11 +30,11 @@ class ListPool {
     lists_[id].clear();
     free_.push_back(id);
   }
-  /// Prefetches the location of a list; `prefetch_terms` then prefetches its content. Both should
-  /// be called some time before the list is used.
+  /// Prefetches the location of a list. `prefetch_terms` then prefetches the content of the list.
+  /// Both functions should be called some time before the list is used.
   void prefetch(Id id) const { __builtin_prefetch(&lists_[id]); }
   void prefetch_terms(Id id) const {
-    // Bytes; the hardware prefetches the rest of a long list.
+    // These are numbers of bytes. The hardware prefetches the rest of a long list.
     constexpr std::size_t line = 64, most = 512;
     const auto* const begin = reinterpret_cast<const char*>(lists_[id].data());
     const std::size_t bytes = std::min(lists_[id].size() * sizeof(T), most);

@@ -11,8 +11,8 @@
 
 namespace ph {
 
-/// The living classes of cohomology, given by their cocycles. For each vertex, it knows the classes
-/// whose cocycles are not zero on some simplex at that vertex.
+/// The living classes of cohomology, given by their cocycles. For each vertex, this class stores
+/// the cohomology classes whose cocycles are not zero on some simplex at that vertex.
 /// @tparam Cochain a type such as TriangleCochain.
 template <class Cochain>
 class LivingCocycles {
@@ -42,17 +42,18 @@ class LivingCocycles {
     return static_cast<Generator>(cochains_.size() - 1);
   }
   void erase(Generator g);
-  /// to += scale * from.
+  /// Computes to += scale * from.
   void add(Generator to, Generator from, Element scale);
   /// Calls Cochain::add_star for the cocycle of g.
   template <class Star>
   void add_star(Generator g, Vertex u, Vertex v, const Star& star);
 
   /// Calls `visit(generator, at_u, at_v)` for each generator that may have simplices at u or v, in
-  /// ascending order. If it has none at u, `at_u` is null; if it has none at v, `at_v` is null.
+  /// ascending order. If a generator has no simplices at u, `at_u` is null. If it has no simplices
+  /// at v, `at_v` is null.
   template <class Visit>
   void for_each_at(Vertex u, Vertex v, Visit&& visit) const;
-  /// The terms in the list; none if the cocycle is dense.
+  /// The terms in the list. There are no terms if the cocycle is dense.
   typename Cochain::Terms terms(const At& at) const {
     using Terms = typename Cochain::Terms;
     return cochains_[at.generator].is_dense() ? Terms() : Terms(shared_.lists[at.list]);

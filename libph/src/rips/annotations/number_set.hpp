@@ -10,8 +10,8 @@
 
 namespace ph {
 
-/// A set of small numbers that are assigned in ascending order. It is an unsorted list as long as
-/// it is short, then a row of bits, and never becomes a list again.
+/// A set of small numbers that are assigned in ascending order. As long as the set is small, it is
+/// an unsorted list. Then it becomes a row of bits, and it never becomes a list again.
 class NumberSet {
  public:
   using Id = std::uint32_t;
@@ -22,7 +22,7 @@ class NumberSet {
   NumberSet(NumberSet&& other, allocator_type allocator)
       : list_(std::move(other.list_), allocator), bits_(std::move(other.bits_), allocator) {}
 
-  /// Adds a number that must be absent.
+  /// Adds a number that is not in the set.
   void insert(Id id) {
     if (bits_.empty()) {
       list_.push_back(id);
@@ -31,7 +31,7 @@ class NumberSet {
       set(id);
     }
   }
-  /// Removes a number that must be present.
+  /// Removes a number that is in the set.
   void erase(Id id) {
     if (bits_.empty()) {
       *std::ranges::find(list_, id) = list_.back();

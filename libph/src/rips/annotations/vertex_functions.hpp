@@ -12,7 +12,7 @@
 namespace ph {
 
 /// Operations on functions from vertices to a field. A function is an array of units that the
-/// caller owns, in blocks of 64 vertices; masks are rows of bits. Each operation takes the number
+/// caller owns, in blocks of 64 vertices. Masks are rows of bits. Each operation takes the number
 /// of blocks to process.
 template <Field K>
 struct VertexFunction {
@@ -27,7 +27,7 @@ struct VertexFunction {
   }
   /// Prefetches a value that is about to change.
   static void prefetch(Unit* row, std::size_t v) { __builtin_prefetch(row + v, 1); }
-  /// to += scale * from.
+  /// Computes to += scale * from.
   static void add(Unit* to, const Unit* from, Element scale, const K& field, std::size_t blocks) {
     for (std::size_t v = 0; v < 64 * blocks; ++v)
       if (!field.is_zero(from[v])) to[v] = field.add(to[v], field.multiply(scale, from[v]));
@@ -80,8 +80,8 @@ struct VertexFunction {
     for (std::size_t v = 0; v < 64 * blocks; ++v)
       if (row[v] != 0) visit(v, row[v]);
   }
-  /// The first vertex that is not before `from` and whose value is not zero; bits::kNone if there
-  /// is none.
+  /// The first vertex that is not before `from` and whose value is not zero. Returns bits::kNone if
+  /// there is no such vertex.
   static std::size_t first(const Unit* row, std::size_t from, std::size_t blocks) {
     for (std::size_t v = from; v < 64 * blocks; ++v)
       if (row[v] != 0) return v;
@@ -170,7 +170,7 @@ struct VertexFunction<Z2> {
   }
 };
 
-/// A pool that hands out rows of zeros and takes rows back.
+/// A pool that lends rows of zeros and takes rows back.
 template <Field K>
 class RowPool {
  public:

@@ -13,11 +13,12 @@
 namespace ph {
 
 /// Computes H0 and H1 of the Vietoris-Rips filtration of points with few coordinates. It uses only
-/// the points, without a list of edges; see pair_points.hpp.
+/// the points, without a list of edges (see pair_points.hpp).
 struct BetaSkeletonEngine {
   static constexpr Engine id = Engine::beta_skeleton;
   static constexpr std::array rips_forms{RipsForm::points};
-  /// A condition that the points or the task do not meet; empty if they meet all conditions.
+  /// A condition that the points or the task do not meet. The text is empty if they meet all
+  /// conditions.
   static std::string_view obstacle(const RipsInput& input, const Task& task);
   static Suitability suitability(const RipsInput& input, const Task& task);
   template <Filtration F>

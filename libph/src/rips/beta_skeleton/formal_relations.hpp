@@ -14,8 +14,8 @@ namespace ph::beta_skeleton {
 
 /// Receives relations between formal generators over any field, one after another, and finds the
 /// generator that each relation kills. As long as an earlier relation has the same youngest
-/// generator as the new one, a multiple of the earlier relation is subtracted. The youngest
-/// generator that is left dies. See docs/explanation/engines/formal-annotations.md.
+/// generator as the new relation, a multiple of the earlier relation is subtracted. The youngest
+/// remaining generator dies. See docs/explanation/engines/formal-annotations.md.
 template <Field K>
 class FormalRelations {
  public:
@@ -40,7 +40,7 @@ class FormalRelations {
     sum.erase(out, sum.end());
   }
   /// Adds a relation. @param relation the sum that becomes zero, with generators in ascending
-  /// order. @return the generator that dies, if any.
+  /// order. @return the generator that dies, or nothing.
   std::optional<Generator> add(Sum& relation) {
     while (!relation.empty()) {
       const Term youngest = relation.back();
@@ -65,7 +65,7 @@ class FormalRelations {
   }
 
   const K& field_;
-  std::pmr::vector<Sum> of_;  // for each generator: the relation that killed it
+  std::pmr::vector<Sum> of_;  // for each generator, the relation that killed it
   Sum merged_;                // scratch
 };
 

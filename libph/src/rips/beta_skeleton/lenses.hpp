@@ -15,11 +15,12 @@ namespace ph::beta_skeleton {
 /// (value, larger vertex, smaller vertex).
 struct Edge {
   double value = 0;
-  std::uint32_t larger = 0, smaller = 0;  ///< its vertices
+  std::uint32_t larger = 0, smaller = 0;  ///< the vertices of the edge
   Position u = kNone, v = kNone;
 
-  /// A squared distance below `certainly_before` belongs to an earlier edge, one above
-  /// `certainly_after` to a later edge. In between, roots must be compared, and then vertices.
+  /// A squared distance below `certainly_before` belongs to an earlier edge. A squared distance
+  /// above `certainly_after` belongs to a later edge. For squared distances between these bounds,
+  /// roots must be compared, and then vertices.
   double certainly_before = 0, certainly_after = 0;
 
   friend bool operator<(const Edge& a, const Edge& b) {
@@ -31,10 +32,11 @@ struct Edge {
 /// The components of the graph on the lens of an edge.
 struct LensComponents {
   struct Component {
-    Position any = kNone;                 ///< one of its points
-    std::uint32_t smallest = UINT32_MAX;  ///< its smallest vertex, as far as it is known
+    Position any = kNone;  ///< one of the points of the component
+    /// The smallest vertex of the component, as far as it is known.
+    std::uint32_t smallest = UINT32_MAX;
   };
-  std::vector<Component> others;  ///< all components except the one of `first`
+  std::vector<Component> others;  ///< all components except the component of `first`
   /// A point of the lens near the middle of the edge, or kNone if the lens is empty.
   Position first = kNone;
   std::vector<Position> of_others;  ///< all points of `others`
@@ -70,14 +72,15 @@ class Lenses {
     return w != e.u && w != e.v && precedes(w, e.u, e) && precedes(w, e.v, e);
   }
 
-  /// The squared radius of a ball around the computed middle of an edge that contains its lens: a
-  /// point at distance at most |uv| from both ends is within sqrt(3/4) |uv| of the middle.
+  /// The squared radius of a ball around the computed middle of an edge that contains its lens. The
+  /// reason is that a point at distance at most |uv| from both ends is within sqrt(3/4) |uv| of the
+  /// middle.
   double reach(double square) const {
     // mutant: beta-lens-radius
     const double radius = std::sqrt(0.75 * square) * (1 + 1e-9) + tree_.midpoint_error();
     return radius * radius;
   }
-  /// The lowest node, from the node of u up, that contains the entire lens.
+  /// The lowest node that contains the entire lens. The search starts at the node of u and goes up.
   Node holder_of(const Edge& e) const {
     const Point middle = PointTree<D>::midpoint(tree_.point(e.u), tree_.point(e.v));
     return tree_.holder_of_ball(tree_.leaf_of(e.u), middle,
@@ -108,7 +111,7 @@ class Lenses {
 
   /// Finds the components of the graph on the lens of e.
   /// @param near a point of the lens near the middle; if it is kNone, the function searches for
-  /// one.
+  /// such a point.
   /// @param holder a node that contains the entire lens.
   void find_components(const Edge& e, Position near, Node holder, LensComponents& found) {
     found.others.clear();
@@ -143,7 +146,7 @@ class Lenses {
         },
         visit);
   }
-  /// Lists the points of the lens that w does not see: no edge before e joins them to w.
+  /// Lists the points of the lens that w does not see, that is, no edge before e joins them to w.
   void list_far(const Edge& e, Position w, Node holder) {
     far_.clear();
     const double *u = tree_.point(e.u), *v = tree_.point(e.v), *m = tree_.point(w);
@@ -158,8 +161,8 @@ class Lenses {
           return false;
         });
   }
-  /// Takes a component out of far_; adds it to the other components unless a point of the lens
-  /// joins it to the component of `first`.
+  /// Takes a component out of far_. Adds the component to the other components, unless a point of
+  /// the lens joins it to the component of `first`.
   void take_component(const Edge& e, Node holder, LensComponents& found) {
     part_.assign(1, far_.back());
     far_.pop_back();
@@ -177,7 +180,7 @@ class Lenses {
     found.others.push_back({part_.front(), smallest});
     found.of_others.insert(found.of_others.end(), part_.begin(), part_.end());
   }
-  /// True if a point of the lens sees both w and x, that is, is joined to them by edges before e.
+  /// True if a point of the lens sees both w and x, that is, edges before e join it to w and to x.
   bool has_bridge(const Edge& e, Position w, Position x, Node holder) const {
     const double *u = tree_.point(e.u), *v = tree_.point(e.v), *a = tree_.point(w),
                  *b = tree_.point(x);

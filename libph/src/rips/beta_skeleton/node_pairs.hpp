@@ -14,8 +14,8 @@ struct NodePair {
   Node a = 0, b = 0;
 };
 
-/// A queue of pairs of nodes by ascending distance, in bins: a calendar queue (Brown 1988). A bin
-/// that becomes too full is divided into narrower bins.
+/// A queue of pairs of nodes by ascending distance, in bins. It is a calendar queue (Brown 1988). A
+/// bin that becomes too full is divided into narrower bins.
 class NodePairQueue {
  public:
   using Pairs = std::pmr::vector<NodePair>;
@@ -37,7 +37,7 @@ class NodePairQueue {
       return;
     }
   }
-  /// Opens the next bin that is not empty. @return true if there is one.
+  /// Opens the next bin that is not empty. @return true if there is such a bin.
   bool open_next() {
     for (;; levels_.pop_back()) {
       Level& level = levels_.back();
@@ -51,7 +51,7 @@ class NodePairQueue {
     }
   }
   /// Takes the pairs of the open bin that were added last, at most `most` of them. @return true if
-  /// there were any.
+  /// the bin had pairs.
   bool take(std::size_t most, Pairs& taken) {
     Pairs& open = open_bin();
     const std::size_t count = std::min(most, open.size());
@@ -78,19 +78,20 @@ class NodePairQueue {
   }
 
  private:
-  static constexpr int kWidestShift = 45;  // of 52 binary digits: 128 bins per power of two
+  // The shift is out of 52 binary digits; it gives 128 bins per power of two.
+  static constexpr int kWidestShift = 45;
   static constexpr int kPartBits = 5;
   static constexpr std::size_t kParts = 1 << kPartBits;
   using Bins = std::pmr::vector<Pairs>;
-  /// Bins of equal width, each of which holds the distances that share their first digits.
+  /// Bins of equal width. Each bin contains the distances that share their first digits.
   struct Level {
-    std::uint64_t first;  // leading digits of the distances in bin 0
+    std::uint64_t first;  // the leading digits of the distances in bin 0
     int shift;
     Bins bins;
-    std::size_t next = 0;  // the open bin is the one before it
+    std::size_t next = 0;  // the open bin is the bin before it
   };
 
-  /// The bits of a distance, which as integers have the same order as distances.
+  /// The bits of a distance. As integers, these bits have the same order as the distances.
   static std::uint64_t key_of(double distance) { return std::bit_cast<std::uint64_t>(distance); }
   Pairs& open_bin() { return levels_.back().bins[levels_.back().next - 1]; }
   const Pairs& open_bin() const { return levels_.back().bins[levels_.back().next - 1]; }

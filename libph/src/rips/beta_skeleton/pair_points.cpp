@@ -17,8 +17,8 @@ namespace {
 
 using namespace beta_skeleton;
 
-/// Computes the pairs of distinct points in two passes, the first for H0 and births of H1, the
-/// second for deaths of H1.
+/// Computes the pairs of distinct points in two passes. The first pass is for H0 and births of H1.
+/// The second pass is for deaths of H1.
 template <int D, Field K>
 class Pairing {
  public:
@@ -60,8 +60,8 @@ class Pairing {
   using Sum = typename Relations::Sum;
 
   /// The distance from a point w near the middle of the cloud to the point farthest from w. For
-  /// every longer edge, w is in the lens and is joined to all other points of the lens. Such edges
-  /// therefore change nothing.
+  /// every longer edge, w is in the lens and is joined to all other points of the lens. Edges
+  /// longer than this distance therefore change nothing.
   double cone_radius() const {
     const Position middle =
         tree_.nearest(1, tree_.centre(1), std::numeric_limits<double>::infinity());
@@ -138,7 +138,7 @@ class Pairing {
       if (classes_.living == 0) return;
     }
   }
-  /// sum += scale * (annotation of u -> w + annotation of w -> v).
+  /// Computes sum += scale * (annotation of u -> w + annotation of w -> v).
   void append(const beta_skeleton::Edge& e, Position w, typename K::Element scale, Sum& sum) {
     const auto minus = field_.negate(scale);
     const auto visit = [&](std::uint32_t generator, bool is_positive) {
@@ -189,7 +189,7 @@ void pair_points(PointsView points, const K& field, const PointPairRequest& want
   const auto run = [&]<int D>(PointsView view) {
     Pairing<D, K>(view, rows, field, wanted, observer, context).run(vertices);
   };
-  if (points.cols() == 1) {  // handles them as points on a line in the plane
+  if (points.cols() == 1) {  // these are handled as points on a line in the plane
     Points plane(points.rows(), 2);
     const MemoryClaim claim(context.memory, vertices * 2 * sizeof(double));
     for (Index i = 0; i < points.rows(); ++i) plane(i, 0) = points(i, 0);

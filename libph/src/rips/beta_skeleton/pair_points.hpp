@@ -23,17 +23,17 @@ class PointPairObserver {
   virtual ~PointPairObserver() = default;
 
   virtual void on_join(Vertex younger, const Edge& edge) = 0;
-  /// A component that is never joined to an older one.
+  /// Receives a component that is never joined to an older component.
   virtual void on_component(Vertex oldest) = 0;
-  /// @param apex the third vertex of the triangle over the edge `death` that kills the class; 0 if
-  /// apexes are not wanted.
+  /// Receives the death of a class. @param apex the third vertex of the triangle over the edge
+  /// `death` that kills the class; 0 if apexes are not wanted.
   virtual void on_death(const Edge& birth, const Edge& death, Vertex apex) = 0;
   virtual void on_essential(const Edge& birth) = 0;
 };
 
 struct PointPairRequest {
   double threshold;   ///< length of the longest edge, inclusive
-  bool loops = true;  ///< H1 in addition to H0
+  bool loops = true;  ///< true if H1 is wanted in addition to H0
   bool apexes = true;
 };
 
@@ -50,12 +50,13 @@ extern template void pair_points<Z2>(PointsView, const Z2&, const PointPairReque
 extern template void pair_points<Zp>(PointsView, const Zp&, const PointPairRequest&,
                                      PointPairObserver&, const RunContext&);
 
-/// The largest number of coordinates per point. With more coordinates, hardly any spindle contains
-/// a point.
+/// The largest number of coordinates per point. With more coordinates, spindles rarely contain a
+/// point.
 inline constexpr Index kMostPointCoordinates = 4;
 
-/// True if all coordinates are zero or between 1e-120 and 1e150 in size. Two different coordinates
-/// then differ by at least 1e-137, and the square of a difference neither underflows nor overflows.
+/// True if all coordinates are zero or have an absolute value between 1e-120 and 1e150. Two
+/// different coordinates then differ by at least 1e-137, and the square of a difference neither
+/// underflows nor overflows.
 bool has_plain_coordinates(PointsView points);
 
 }  // namespace ph

@@ -19,9 +19,9 @@ using Position = KdTree::Position;
 using Node = KdTree::Node;
 inline constexpr Position kNone = UINT32_MAX;
 
-/// Squares of distances, rounded as in PointMetric: the sum of the squared differences, axis by
-/// axis. Rounding is monotone, and all sums are rounded in the same order. Bounds for boxes
-/// therefore hold exactly for the rounded squares of the points in them.
+/// Squares of distances, rounded as in PointMetric. Each square is the sum of the squared
+/// differences, axis by axis. Rounding is monotone, and all sums are rounded in the same order.
+/// Bounds for boxes therefore hold exactly for the rounded squares of the points in them.
 template <int D>
 struct Squares {
   [[gnu::always_inline]] static double between(const double* a, const double* b) {
@@ -76,7 +76,7 @@ struct Squares {
 inline constexpr double kBeyondTies = 1e-12;
 
 /// Points of R^D in a k-d tree. Searches start at the smallest node whose cell contains the ball to
-/// be searched. The cell of a node is a part of space without points outside the node.
+/// be searched. The cell of a node is a part of space that contains no points outside the node.
 template <int D>
 class PointTree {
  public:
@@ -109,7 +109,7 @@ class PointTree {
   }
   double square(Position p, Position q) const { return S::between(point(p), point(q)); }
 
-  /// An upper bound for the distance between a computed midpoint and the true one.
+  /// An upper bound for the distance between a computed midpoint and the true midpoint.
   double midpoint_error() const { return midpoint_error_; }
   static Point midpoint(const double* a, const double* b) {
     Point m;
@@ -127,7 +127,7 @@ class PointTree {
     return 0.5 * std::sqrt(S::extent(box(node))) * (1 + kBeyondTies) + midpoint_error_;
   }
 
-  /// The lowest node, from `node` up, that contains all points of a ball.
+  /// The lowest node that contains all points of a ball. The search starts at `node` and goes up.
   Node holder_of_ball(Node node, const Point& centre, double radius) const {
     for (radius *= 1 + kBeyondTies; node > 1; node /= 2) {
       const double* cell = &cells_[std::size_t{node} * 2 * D];
@@ -141,8 +141,8 @@ class PointTree {
     return node;
   }
 
-  /// Calls `visit(position)` for the points below `start` until it returns true; skips nodes for
-  /// which `is_hopeless(box, node)` is true. @return true if a visit returned true.
+  /// Calls `visit(position)` for the points below `start` until `visit` returns true. Skips nodes
+  /// for which `is_hopeless(box, node)` is true. @return true if a visit returned true.
   template <class IsHopeless, class Visit>
   bool search(Node start, IsHopeless&& is_hopeless, Visit&& visit) const {
     std::array<Node, 64> stack;
@@ -164,8 +164,8 @@ class PointTree {
   }
 
   /// Searches the points below `start` that satisfy `is_allowed` and whose squared distance from x
-  /// is below `limit`. @return the nearest of these points, or the first one found whose squared
-  /// distance is below `near_enough`; kNone if there is no such point.
+  /// is below `limit`. @return the nearest of these points, or the first of them whose squared
+  /// distance is below `near_enough`. Returns kNone if there is no such point.
   template <class IsAllowed>
   Position nearest(Node start, const Point& x, double limit, double near_enough,
                    IsAllowed&& is_allowed) const {

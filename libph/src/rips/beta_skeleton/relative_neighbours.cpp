@@ -18,7 +18,8 @@ class Finder {
   Finder(const PointTree<D>& tree, double limit, const RunContext& context)
       : tree_(tree), lenses_(tree), limit_(limit), context_(context) {}
 
-  /// Handles a pair of nodes: drops it, examines its points, or replaces it by pairs of children.
+  /// Handles a pair of nodes. The pair is dropped, its points are examined, or it is replaced by
+  /// pairs of children.
   template <class Push>
   void open(NodePair pair, Push&& push, std::pmr::vector<FoundEdge>& found) {
     const auto [a, b] = pair;
@@ -53,7 +54,7 @@ class Finder {
     return w != kNone && S::largest(tree_.point(w), tree_.box(a)) < most &&
            S::largest(tree_.point(w), tree_.box(b)) < most;
   }
-  /// The same for all pairs of the point x and a point of node b.
+  /// Does the same for all pairs of the point x and a point of node b.
   bool is_hopeless(Position x, Node b, Node holder, Witnesses& witnesses) const {
     const double least = S::least(tree_.point(x), tree_.box(b)) * (1 - kBeyondTies);
     if (least == 0) return false;
@@ -112,11 +113,11 @@ class Finder {
 template <int D>
 std::pmr::vector<FoundEdge> relative_neighbours(const PointTree<D>& tree, double limit,
                                                 const RunContext& context) {
-  constexpr std::size_t few = 1 << 12;  // too few to be worth a thread
+  constexpr std::size_t few = 1 << 12;  // so few pairs are not worth a thread
   const std::size_t pieces = tree.size() < few ? 1 : 1024;
   std::pmr::memory_resource* const memory = &context.memory;
   std::pmr::vector<FoundEdge> edges(memory);
-  // Starts with the root paired with itself, and splits pairs until there are enough for all
+  // This starts with the root paired with itself, and splits pairs until there are enough for all
   // threads. Each thread then takes a pair and handles everything below it.
   std::pmr::vector<NodePair> pairs({{1, 1}}, memory), next(memory);
   Finder<D> finder(tree, limit, context);

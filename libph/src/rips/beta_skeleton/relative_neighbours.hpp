@@ -28,14 +28,14 @@ class Witnesses {
   std::size_t next_ = 0;
 };
 
-/// An edge of the graph, kept small because there are many.
+/// An edge of the graph. It is kept small because there are many edges.
 struct FoundEdge {
   double value;
   Position u, v;
 };
 
-/// Computes the relative neighbourhood graph (Toussaint 1980): the edges of length up to `limit`
-/// with an empty lens, sorted.
+/// Computes the relative neighbourhood graph (Toussaint 1980). It consists of the edges of length
+/// up to `limit` with an empty lens, in sorted order.
 template <int D>
 std::pmr::vector<FoundEdge> relative_neighbours(const PointTree<D>& tree, double limit,
                                                 const RunContext& context);

@@ -13,8 +13,9 @@
 
 namespace ph::beta_skeleton {
 
-/// The generators of H1, one for each edge of the relative neighbourhood graph that does not join
-/// components, and the formal annotation of any edge: a signed sum of generators.
+/// The generators of H1, and the formal annotation of any edge. There is one generator for each
+/// edge of the relative neighbourhood graph that does not join components. A formal annotation is a
+/// signed sum of generators.
 template <int D>
 class SkeletonCycles {
  public:
@@ -38,15 +39,15 @@ class SkeletonCycles {
       ends_[--begin_[u + 1]] = {v, generators[i]};
       ends_[--begin_[v + 1]] = {u, generators[i]};
     }
-    // Shifts the starts: the entry for p + 1 becomes the entry for p.
+    // This shifts the starts, so that the entry for p + 1 becomes the entry for p.
     std::copy(begin_.begin() + 1, begin_.end(), begin_.begin());
     begin_.back() = static_cast<std::uint32_t>(ends_.size());
   }
 
   /// Calls `visit(generator, is_positive)` for the terms of a formal annotation of x -> y. If the
   /// lens of the edge is empty, there is at most one term. Otherwise, the annotation is the sum of
-  /// the annotations of x -> w and w -> y, where w is any point of the lens: both edges come before
-  /// x -> y.
+  /// the annotations of x -> w and w -> y, where w is any point of the lens. These two edges come
+  /// before x -> y.
   template <class Visit>
   void annotate(Position x, Position y, Visit&& visit) {
     stack_.assign(1, {x, y});
@@ -54,7 +55,7 @@ class SkeletonCycles {
       const auto [from, to] = stack_.back();
       stack_.pop_back();
       if (const End* const end = find(from, to)) {
-        // Generators are directed from the smaller vertex to the larger one.
+        // Generators are directed from the smaller vertex to the larger vertex.
         if (end->generator != kNoGenerator)
           // mutant: beta-sign
           visit(end->generator, lenses_.tree().row(from) < lenses_.tree().row(to));
@@ -80,7 +81,8 @@ class SkeletonCycles {
   }
 
   const Lenses<D>& lenses_;
-  std::pmr::vector<std::uint32_t> begin_;  // for each position: its first entry in the list of ends
+  // For each position, its first entry in the list of ends.
+  std::pmr::vector<std::uint32_t> begin_;
   std::pmr::vector<End> ends_;
   std::pmr::vector<std::pair<Position, Position>> stack_;  // scratch
 };

@@ -9,15 +9,17 @@
 namespace ph::beta_skeleton {
 
 // The spindle of an edge (u, v) consists of the points p that see u and v under an angle of more
-// than 150 degrees. Such a point p lies in the lens of the edge, and its distance to every point of
-// the lens is less than |uv|. The edge then changes nothing. For the proof of this and of the
-// following, see docs/explanation/engines/beta-skeleton.md.
+// than 150 degrees. A point p of the spindle is in the lens of the edge, and its distance to every
+// point of the lens is less than |uv|. If there is such a point, the edge changes nothing. For the
+// proofs of these statements and of the statements below, see
+// docs/explanation/engines/beta-skeleton.md.
 //
-// Rounding. The lens is defined by the rounded distances, and each rounded square has a relative
+// Rounding: the lens is defined by the rounded distances, and each rounded square has a relative
 // error below 1e-15. Let e = 2e-15. If (u,q) does not come after (u,v), then |uq| <= (1 + e) |uv|.
-// If |pq| < (1 - e) |uv|, then (p,q) comes before (u,v), whatever the ties. Write c for -(u - p).(v
-// - p). The proof with this e needs c >= sqrt(3/4) |up| |vp| + 3 e |uv|^2. The margin below, 1e-12
-// |uv|^2, leaves more than a hundred times 3 e |uv|^2 for the rounding errors of the test itself.
+// If |pq| < (1 - e) |uv|, then (p,q) comes before (u,v), regardless of ties. Let c denote -(u -
+// p).(v - p). The proof with this e needs c >= sqrt(3/4) |up| |vp| + 3 e |uv|^2. The margin below
+// is 1e-12 |uv|^2. It leaves more than a hundred times 3 e |uv|^2 for the rounding errors of the
+// test itself.
 
 /// The margin, as a multiple of |uv|^2, by which a point must be inside the spindle.
 inline constexpr double kSpindleMargin = 1e-12;
@@ -37,9 +39,9 @@ bool is_in_spindle(const double* p, const double* u, const double* v, double squ
 }
 
 /// True if p is certainly in the spindle of all pairs of a point in one ball and a point in
-/// another. By the first test, |up| |vp| >= 1e-7 |uv|^2. A margin of 1e-6 in the angle is therefore
-/// worth 5e-14 |uv|^2 in the proof, more than the 3 e |uv|^2 that it needs. This margin also
-/// exceeds the rounding error of acos.
+/// another. By the first test, |up| |vp| >= 1e-7 |uv|^2. A margin of 1e-6 in the angle therefore
+/// corresponds to 5e-14 |uv|^2 in the proof. This is more than the 3 e |uv|^2 that the proof needs.
+/// This margin also exceeds the rounding error of acos.
 template <int D>
 bool is_in_spindles(const double* p, const double* centre_u, double radius_u,
                     const double* centre_v, double radius_v, double distance) {

@@ -21,7 +21,8 @@ class SplitLenses<D>::Opener {
         classes_(of.classes_),
         context_(of.context_) {}
 
-  /// Handles a pair of nodes: drops it, examines its points, or replaces it by pairs of children.
+  /// Handles a pair of nodes. The pair is dropped, its points are examined, or it is replaced by
+  /// pairs of children.
   void open(NodePair pair, Found& found) {
     const auto [a, b] = pair;
     if (a == b) {
@@ -52,7 +53,7 @@ class SplitLenses<D>::Opener {
   }
 
   /// True if no pair of points of two nodes has to be examined.
-  /// @param witness receives a point near the midpoint of the two nodes' centres, or kNone; it is
+  /// @param witness receives a point near the midpoint of the two nodes' centres, or kNone. It is
   /// unchanged if the function does not search for such a point.
   bool is_hopeless(Node a, Node b, Position& witness) const {
     const double least = S::least_of_boxes(tree_.box(a), tree_.box(b)),
@@ -191,7 +192,7 @@ void SplitLenses<D>::sweep_below(double bound, const OnSplit& on_split) {
     on_split(e, lenses_.holder_of(e));
     context_.poll();
   }
-  // Counts the classes that are born before `bound` as living.
+  // This counts the classes that are born before `bound` as living.
   while (classes_.born < classes_.births.size() && classes_.births[classes_.born] < bound) {
     ++classes_.born;
     ++classes_.living;

@@ -23,17 +23,16 @@ struct Classes {
   bool are_over() const { return living == 0 && born == births.size(); }  // mutant: beta-over
 };
 
-/// Finds the edges whose lens has several components, in their order, until there are no more
-/// classes.
+/// Finds the edges whose lens has several components, in their order, until no classes are left.
 template <int D>
 class SplitLenses {
  public:
   using S = Squares<D>;
-  /// A function that receives each such edge and updates the classes.
+  /// A function that receives each edge whose lens has several components, and updates the classes.
   using OnSplit = std::function<void(const Edge&, Node holder)>;
 
-  /// @param classes its counts of born and living classes change while edges are found. @param
-  /// limit the length of the longest edge.
+  /// @param classes the data of classes; the counts of born and living classes change while edges
+  /// are found. @param limit the length of the longest edge.
   SplitLenses(const PointTree<D>& tree, double limit, Classes& classes, const RunContext& context)
       : tree_(tree),
         lenses_(tree),

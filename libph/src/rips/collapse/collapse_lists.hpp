@@ -9,8 +9,8 @@
 
 namespace ph::collapse {
 
-/// The graph of an edge collapse, for graphs with few edges: the sorted list of each vertex's
-/// neighbours, each with the key at which its edge enters.
+/// The graph of an edge collapse, for graphs with few edges. For each vertex, it has the sorted
+/// list of neighbours, each with the key at which its edge enters.
 class ListGraph {
  public:
   using Set = std::pmr::vector<Vertex>;  // ascending
@@ -108,7 +108,7 @@ class ListGraph {
     return std::span(neighbours_).subspan(begins_[v], sizes_[v]);
   }
 
-  /// Calls `visit(vertex, key)` for each vertex that is ever joined to both ends.
+  /// Calls `visit(vertex, key)` for each vertex that is joined to both ends at any time.
   template <class Visit>
   void for_each_common(const FlagEdge& e, Visit&& visit) const {
     const auto of_u = list(e.u), of_v = list(e.v);

@@ -11,7 +11,8 @@
 namespace ph::collapse {
 
 /// The graph of an edge collapse, for graphs with most of the possible edges. Edges that entered
-/// before the current edge are stored as rows of bits, later edges that were kept as sorted lists.
+/// before the current edge are stored as rows of bits. Later edges that were kept are stored as
+/// sorted lists.
 class RowGraph {
  public:
   using Set = std::pmr::vector<BitMatrix::Word>;
@@ -112,8 +113,8 @@ class RowGraph {
     insert_later(e.u, {e.v, to});
     insert_later(e.v, {e.u, to});
   }
-  /// Must be called once all edges of the same value are done: the collapse goes on with earlier
-  /// edges, for which this edge is a later one.
+  /// Must be called once all edges of the same value are done. The collapse then continues with
+  /// earlier edges, for which this edge is a later edge.
   void leave(const FlagEdge& e, Key now) { move(e, now); }
 
  private:

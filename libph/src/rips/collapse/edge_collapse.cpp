@@ -13,7 +13,7 @@ namespace ph {
 namespace collapse {
 namespace {
 
-/// The collapse of one graph, stored as `Graph`; see collapse_graph.hpp.
+/// The collapse of one graph, stored as `Graph` (see collapse_graph.hpp).
 template <class Graph>
 class EdgeCollapse {
  public:
@@ -75,8 +75,8 @@ class EdgeCollapse {
     friend auto operator<=>(const Move&, const Move&) = default;
   };
 
-  /// The first key that is not less than `now` and at which the edge is not dominated; kNever if
-  /// there is none.
+  /// The first key that is not less than `now` and at which the edge is not dominated. Returns
+  /// kNever if there is no such key.
   Key first_key_not_dominated(const FlagEdge& e, Key now, Ticker& ticker) {
     graph_.find_link(e, now, link_);
     Vertex dominator = find_dominator(e, now, ticker);
@@ -102,8 +102,8 @@ class EdgeCollapse {
     return kNever;
   }
 
-  /// A vertex of the link that, at key `now`, is joined to all other vertices of the link; kNone if
-  /// there is none.
+  /// A vertex of the link that, at key `now`, is joined to all other vertices of the link. Returns
+  /// kNone if there is no such vertex.
   Vertex find_dominator(const FlagEdge& e, Key now, Ticker& ticker) {
     Vertex& last = last_dominator_[e.u];
     Vertex c = graph_.contains(link_, last) ? last : graph_.first(link_);
@@ -137,17 +137,18 @@ class EdgeCollapse {
   Graph graph_;
   typename Graph::Set link_, candidates_;
   std::pmr::vector<Arrival> arrivals_;  // a heap with the next arrival on top
-  // For each vertex: the dominator of its last edge, which is a good guess for the next.
+  // For each vertex, the dominator of its last edge, which is a good guess for its next edge.
   std::pmr::vector<Vertex> last_dominator_;
 };
 
 constexpr double kAlwaysAffordable = 1 << 25;  // bytes
 constexpr std::size_t kSample = 500;           // number of edges
-// Another pass follows if a pass dropped at least one of every 8 edges. Measured: if it dropped
-// fewer, the next pass takes longer than it saves in the reduction.
+// Another pass follows if a pass dropped at least one of every 8 edges. Measurements show that
+// after a pass that dropped fewer edges, the next pass takes longer than it saves in the reduction.
 constexpr std::size_t kWorthAnotherPass = 8;
 
-// Measured: rows are 2 to 15 times as fast as lists wherever their memory is affordable.
+// Measurements show that rows are 2 to 15 times as fast as lists wherever their memory is
+// affordable.
 bool are_rows_affordable(const RipsGraph& graph) {
   return RowGraph::bytes(graph) <= std::max(kAlwaysAffordable, ListGraph::bytes(graph));
 }

@@ -54,7 +54,7 @@ auto EchelonRelations::eliminate(Word* row, std::size_t words, Relation* of) -> 
 }
 
 auto EchelonRelations::store(Generator youngest) -> Relation {
-  constexpr std::size_t few = 8, sparse = 16;  // number of terms; words per term
+  constexpr std::size_t few = 8, sparse = 16;  // number of terms, number of words per term
   const std::size_t words = words_to(youngest);
   Relation result;
   result.count = static_cast<std::uint32_t>(bits::count_common(row_.data(), row_.data(), words));
@@ -72,7 +72,7 @@ auto EchelonRelations::store(Generator youngest) -> Relation {
 }
 
 void EchelonRelations::substitute(Word* vectors, std::size_t generators, std::size_t words) const {
-  // The other generators of the relation that killed g are older than g, and their vectors are
+  // The relation that killed g has other generators, which are older than g and whose vectors are
   // final.
   for (Generator g = 0; g < generators; ++g) {
     if (!is_dead(g)) continue;

@@ -22,7 +22,7 @@ auto FormalSums::add(Sum a, Sum b) -> Sum {
   const auto x = (*this)[a], y = (*this)[b];
   Generator* to = terms_.data() + size;
   std::size_t i = 0, j = 0;
-  while (i < x.size() && j < y.size()) {  // no branch, because it would be unpredictable
+  while (i < x.size() && j < y.size()) {  // a branch would be unpredictable
     const Generator g = x[i], h = y[j];
     *to = std::min(g, h);
     to += g != h;

@@ -28,8 +28,8 @@ class FormalSums {
   Sum insert(std::span<const Generator> terms);
   Sum add(Sum a, Sum b);
 
-  /// Adds the relation that the total of these sums is zero. @return the generator that this kills,
-  /// or EchelonRelations::kNone.
+  /// Adds the relation that the total of these sums is zero. @return the generator that the
+  /// relation kills, or EchelonRelations::kNone.
   Generator add_relation(std::span<const Sum> sums) {
     for (const Sum a : sums) relations_.add((*this)[a]);
     return relations_.reduce();

@@ -7,8 +7,8 @@
 
 namespace ph {
 
-/// A matrix with a number for each pair of vertices. It takes 16 bits per number until a larger
-/// number is stored.
+/// A matrix with a number for each pair of vertices. It takes 16 bits per number until a number
+/// that needs more bits is stored.
 class PairLabels {
  public:
   using Vertex = std::uint32_t;

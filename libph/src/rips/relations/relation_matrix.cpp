@@ -18,8 +18,8 @@ struct Reduced {
 };
 
 // Adds rows of a matrix to `row` until the first column of `row` is not the first column of any of
-// them.
-// @param words the number of words per row, in complete cache lines. @param row_of for each column:
+// these rows.
+// @param words the number of words per row, in complete cache lines. @param row_of for each column,
 // the row of which it is the first column. @param added receives the rows that were added.
 PH_FOR_EACH_TARGET
 Reduced reduce_row(Word* row, const Word* matrix, std::size_t words, const Row* row_of,
@@ -45,8 +45,8 @@ Reduced reduce_row(Word* row, const Word* matrix, std::size_t words, const Row* 
 // Eight squares of 64 x 64 bits side by side.
 using Squares = std::array<std::array<Word, 8>, 64>;
 
-// Transposes each square by swapping the blocks above and below its diagonal: first blocks of 32 x
-// 32 bits, then smaller and smaller ones, down to single bits.
+// Transposes each square by swapping the blocks above and below its diagonal. The blocks have 32 x
+// 32 bits at first, and become smaller and smaller, down to single bits.
 PH_FOR_EACH_TARGET
 void transpose(Squares& squares) {
   Word mask = 0x00000000FFFFFFFF;
@@ -109,8 +109,8 @@ void RelationMatrix::transpose(const Word* relations, std::size_t words) {
 }
 
 void RelationMatrix::substitute(Word* vectors, std::size_t words) const {
-  // The reduced row of a living generator is zero, as the sum of its original row and other rows.
-  // Its vector is added to the vectors of these other rows.
+  // The reduced row of a living generator is zero. It is the sum of its original row and other
+  // rows. The vector of the generator is added to the vectors of these other rows.
   for (std::size_t s = steps_.size(); s-- > 0;)
     for (std::size_t i = steps_[s].begin; i < end_of(s); ++i)
       // mutant: relation-dead

@@ -11,15 +11,15 @@
 namespace ph {
 
 /// Receives relations between generators over Z/2, one after another, and finds the generator that
-/// each relation kills: the youngest generator that is left when the generators that died before
-/// have been substituted.
+/// each relation kills. This is the youngest generator that is left after the generators that died
+/// before have been substituted.
 ///
 /// The matrix has a row for each generator, from the oldest to the youngest, and a column for each
-/// relation. Rows are reduced one after another, the youngest first: younger rows are added to a
+/// relation. Rows are reduced one after another, the youngest first. Younger rows are added to a
 /// row until its first column is not the first column of any younger row. The relation of that
 /// column killed the generator of the row. A reduction of columns gives the same pairs (de Silva,
 /// Morozov, Vejdemo-Johansson, Dualities in persistent (co)homology). Here, however, relations that
-/// follow from earlier ones cost nothing, and most relations do.
+/// follow from earlier relations cost nothing, and most relations follow from earlier ones.
 ///
 /// Relations come in blocks. All additions are stored for later blocks, and for `substitute`.
 class RelationMatrix {
@@ -37,10 +37,10 @@ class RelationMatrix {
         added_(memory),
         more_(memory) {}
 
-  /// Solves a block of relations. @param rows the number of generators, at least as many as before;
-  /// new ones are younger. @param relations the columns, each of `words` words with one bit per
-  /// generator. @return for each column the generator that it killed, or kNone; valid until the
-  /// next call.
+  /// Solves a block of relations. @param rows the number of generators, which is at least the
+  /// previous number; new generators are younger. @param relations the columns, each of `words`
+  /// words with one bit per generator. @return for each column, the generator that it killed, or
+  /// kNone. The result is valid until the next call.
   std::span<const Row> reduce(std::size_t rows, std::size_t columns, const Word* relations,
                               std::size_t words);
 
@@ -49,17 +49,17 @@ class RelationMatrix {
   std::size_t living_count() const { return living_; }
   /// Number of additions that are stored.
   std::size_t additions() const { return added_.size(); }
-  /// Computes the vectors of dead generators from those of the living ones. @param vectors one
-  /// vector per generator, each of `words` words: on entry, the vectors of living generators, and
-  /// zeros for dead ones.
+  /// Computes the vectors of dead generators from the vectors of living generators. @param vectors
+  /// one vector per generator, each of `words` words. On entry, it contains the vectors of living
+  /// generators, and zeros for dead generators.
   void substitute(Word* vectors, std::size_t words) const;
 
  private:
   struct alignas(64) Line {
     std::array<Word, 8> words{};
   };
-  /// The additions to the row `to`: the entries of added_ from `begin` up to the start of the next
-  /// step, in this order.
+  /// The additions to the row `to`. They are the entries of added_ from `begin` up to the start of
+  /// the next step, in this order.
   struct Step {
     Row to;
     std::size_t begin;
@@ -73,7 +73,7 @@ class RelationMatrix {
 
   std::size_t lines_ = 0;  // cache lines per row
   std::pmr::vector<Line> cells_;
-  std::pmr::vector<Row> row_of_;  // for each column: the row that begins there, if any
+  std::pmr::vector<Row> row_of_;  // for each column, the row that begins there, if any
   std::pmr::vector<std::uint8_t> is_dead_;
   std::size_t living_;
   std::pmr::vector<Step> steps_;

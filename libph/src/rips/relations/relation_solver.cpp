@@ -16,12 +16,12 @@ double bytes(std::size_t vertices) {
 }
 
 double most_bytes(const MemoryBudget& memory) {
-  constexpr double most = 1 << 29, share = 0.25;  // bytes; share of the remaining memory
+  constexpr double most = 1 << 29, share = 0.25;  // bytes, and the share of the remaining memory
   return std::min(most, share * static_cast<double>(memory.left()));
 }
 
 // True if memory is allocated in one block. For more vertices, memory that is no longer needed must
-// be given back earlier.
+// be freed earlier.
 bool is_few(std::size_t vertices) { return vertices <= 700; }
 std::size_t part_bytes(std::size_t vertices) {
   constexpr std::size_t line = 64;
@@ -119,8 +119,8 @@ bool RelationSolver::solve_if_due() {
     if (deaths_.size() < enough) return true;
     if (!solve()) return false;
   } else {
-    // Measured: if lists are turned into rows earlier, the rows are longer; if they are turned into
-    // rows later, more relations are checked in vain.
+    // Measurements led to this factor. If lists are turned into rows earlier, the rows are longer.
+    // If they are turned into rows later, more relations are checked in vain.
     if (5 * lists_->relations().dead_count() <= 4 * births_.size()) return true;
     const auto vectors = static_cast<double>(births_.size() + 2 * sum_count());
     if (vectors * static_cast<double>(living_) / 8 > most_bytes(memory_)) return true;
@@ -135,7 +135,8 @@ bool RelationSolver::solve() {
   for (std::size_t i = 0; i < killed.size(); ++i)
     if (killed[i] != RelationMatrix::kNone) report_death(killed[i], deaths_[i]);
   deaths_.clear();
-  constexpr std::size_t many = 4;  // additions per row; with more, substitution pays
+  // The number of additions per row; with more additions, substitution is worthwhile.
+  constexpr std::size_t many = 4;
   if (rows_->matrix().additions() > many * births_.size()) make_rows();
   return living_ != before;
 }
@@ -144,7 +145,8 @@ void RelationSolver::make_rows() {
   const std::size_t sums = sum_count(), generators = births_.size();
   const std::size_t words = SumRows::words_for(living_);
   std::pmr::vector<SumRows::Word> rows(kept_);
-  rows.reserve(2 * sums * words);  // leaves room for about as many sums to come
+  // This leaves room for about as many sums to come.
+  rows.reserve(2 * sums * words);
   rows.resize(sums * words, 0);
   {
     std::pmr::vector<SumRows::Word> meanings(generators * words, 0, lent_);

@@ -17,10 +17,11 @@
 
 namespace ph {
 
-/// Replaces Annotations over Z/2 while thousands of classes of H^1 are alive, as happens with
-/// random distances. Its annotations are formal: sums of generators in which dead generators are
-/// not substituted. Deaths are recorded only by relations between generators. At first, a formal
-/// annotation is a list of a few generators, later a row of bits over the living generators.
+/// Replaces Annotations over Z/2 while thousands of classes of H^1 are alive, which happens with
+/// random distances. The annotations of this class are formal, that is, they are sums of generators
+/// in which dead generators are not substituted. Deaths are recorded only by relations between
+/// generators. At first, a formal annotation is a list of a few generators. Later it is a row of
+/// bits over the living generators.
 ///
 /// docs/explanation/engines/formal-annotations.md explains the reasons and the order of calls.
 class RelationSolver {
@@ -28,14 +29,14 @@ class RelationSolver {
   using Vertex = SweepObserver<Z2>::Vertex;
   using Edge = Annotations<Z2>::Edge;
 
-  /// @param annotations the present annotations, which the solver takes over; they are no longer
-  /// needed afterwards. @param observer, memory must outlive this object.
+  /// @param annotations the current annotations, which the solver takes over. They are not needed
+  /// afterwards. @param observer, memory must outlive this object.
   RelationSolver(std::size_t vertices, Annotations<Z2>& annotations, SweepObserver<Z2>& observer,
                  const SweepTuning& tuning, MemoryBudget& memory);
   /// True if the memory is likely to be enough.
   static bool fits(std::size_t vertices, const MemoryBudget& memory);
 
-  /// Adds a generator that is one on a new edge and zero on all others.
+  /// Adds a generator that is one on a new edge and zero on all other edges.
   void give_birth(const Edge& edge);
   /// Prefetches the data that annotating the edge from u to v will need. @param link one bit per
   /// vertex.
@@ -65,8 +66,8 @@ class RelationSolver {
   }
   void assign(const Edge& edge, Sum a);
   void report_death(Generator g, Triangle death);
-  /// Turns lists into rows, or solves the collected relations, if enough are collected. @return
-  /// false if the solver must stop.
+  /// If enough relations are collected, turns lists into rows or solves the collected relations.
+  /// @return false if the solver must stop.
   bool solve_if_due();
   /// Solves the collected relations and reports deaths. @return true if a generator died.
   /// Precondition: annotations are rows.
@@ -74,16 +75,16 @@ class RelationSolver {
   /// Substitutes the dead generators in all annotations. Precondition: no relations are waiting.
   void make_rows();
 
-  // For few vertices, a block of memory on huge pages, in two parts. Memory of the first part is
-  // not given back before the end. All memory of the second part is given back when lists become
+  // For few vertices, this is a block of memory on huge pages, in two parts. Memory of the first
+  // part is not freed before the end. All memory of the second part is freed when lists become
   // rows.
   std::pmr::monotonic_buffer_resource block_, kept_part_, lent_part_;
   std::pmr::memory_resource *kept_, *lent_;
   SweepObserver<Z2>& observer_;
   const SweepTuning tuning_;
   MemoryBudget& memory_;
-  PairLabels sums_;                    // for the ends of each edge: its annotation
-  std::pmr::vector<Edge> edges_;       // edges with a non-empty annotation
+  PairLabels sums_;               // the annotation of each edge, indexed by the ends of the edge
+  std::pmr::vector<Edge> edges_;  // edges with a non-empty annotation
   std::pmr::vector<Position> births_;  // birth of each generator
   std::size_t living_ = 0;
   std::unique_ptr<FormalSums> lists_;  // annotations as lists,

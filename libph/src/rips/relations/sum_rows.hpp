@@ -20,7 +20,7 @@ class SumRows {
   using Sum = std::uint32_t;
   using Word = bits::Word;
 
-  /// The number of words per row for that many generators and some more to come.
+  /// The number of words per row for the given number of generators and some more that may follow.
   static std::size_t words_for(std::size_t generators) {
     return (generators + generators / 8) / 64 + 1;
   }
@@ -43,8 +43,8 @@ class SumRows {
   /// Stores the relation that the total of these sums is zero. @return false if the total is empty.
   bool add_relation(std::span<const Sum, 4> sums);
   std::size_t relation_count() const { return values_.size() / words_; }
-  /// Solves the stored relations. @return for each relation the generator that it kills, or
-  /// RelationMatrix::kNone; valid until the next call.
+  /// Solves the stored relations. @return for each relation, the generator that it kills, or
+  /// RelationMatrix::kNone. The result is valid until the next call.
   std::span<const Generator> solve();
   const RelationMatrix& matrix() const { return matrix_; }
 
@@ -56,7 +56,7 @@ class SumRows {
   std::size_t words_, generators_;
   std::pmr::vector<Word> rows_;
   std::pmr::vector<Word> values_;  // stored relations
-  RelationMatrix matrix_;          // its rows stand for generators
+  RelationMatrix matrix_;          // the rows represent generators
 };
 
 }  // namespace ph

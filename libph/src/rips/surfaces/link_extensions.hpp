@@ -18,9 +18,10 @@
 
 namespace ph {
 
-/// The living classes of H2 near a new edge (u,v), and their extension to its star: for each class
-/// h a potential p on the link, p(w) = phi_h(u,v,w), such that p(y) - p(x) = gamma(x,y) :=
-/// phi_h(u,x,y) - phi_h(v,x,y) on the edges xy of the link. Vertices are numbered within the link.
+/// The living classes of H2 near a new edge (u,v), and their extension to its star. For each class
+/// h, the extension is a potential p on the link, where p(w) = phi_h(u,v,w). It must satisfy p(y) -
+/// p(x) = gamma(x,y) := phi_h(u,x,y) - phi_h(v,x,y) on the edges xy of the link. Vertices are
+/// numbered within the link.
 template <Field K>
 class LinkExtensions {
  public:
@@ -36,17 +37,17 @@ class LinkExtensions {
   struct Extension {
     Generator generator;
     const Cochain* cocycle;  ///< null for a loop
-    /// For a loop: a cocycle on the link that takes the place of gamma and belongs to no class.
+    /// For a loop, a cocycle on the link that takes the place of gamma and belongs to no class.
     LinkPairs<K>* loop = nullptr;
     /// The lists of u and v, unless the cocycle is dense.
     typename Cochain::Terms at_u = {}, at_v = {};
     typename RowPool<K>::Id potential = 0;
-    /// For an obstructed class: p(x) + gamma(x,y) - p(y), where y is the vertex added last. It is
-    /// zero again before the next vertex is added.
+    /// For an obstructed class, the function p(x) + gamma(x,y) - p(y), where y is the vertex added
+    /// last. It is zero again before the next vertex is added.
     typename RowPool<K>::Id mismatch = 0;
     std::size_t first = 0, last = 0;  ///< range of its terms in terms_
-    bool is_obstructed = false;       ///< no potential fits
-    bool is_flat = true;              ///< the potential is zero so far
+    bool is_obstructed = false;       ///< true if no potential fits
+    bool is_flat = true;              ///< true if the potential is zero so far
     bool is_mismatched = false;
   };
 
@@ -60,7 +61,7 @@ class LinkExtensions {
         gamma_((graph.vertex_count() + 63) / 64 * Function::kUnitsPerBlock, 0, memory),
         terms_(memory) {}
 
-  /// The extensions: first loops, then classes by ascending generator.
+  /// The extensions. Loops come first, then classes by ascending generator.
   std::pmr::vector<Extension>& all() { return all_; }
   /// Adds cocycles of the link that have no potential. They must outlive the work on the edge.
   void add_loops(std::span<LinkPairs<K>* const> loops);
@@ -68,8 +69,8 @@ class LinkExtensions {
   void remove(Extension* x);
 
   /// Finds the classes whose gamma is not zero on the link, and their potentials. Before the first
-  /// such class, calls `prepare` to get a cover of the link. @return true if some classes have no
-  /// potential; their potentials and mismatches are zero.
+  /// of these classes, calls `prepare` to get a cover of the link. @return true if some classes
+  /// have no potential. The potentials and mismatches of these classes are zero.
   template <class Prepare>
   bool find(const FlagEdge& e, Prepare&& prepare);
   /// Computes gamma again for obstructed classes after cocycles have changed.
@@ -77,22 +78,22 @@ class LinkExtensions {
 
   Unit* potential(const Extension& x) { return rows_[x.potential]; }
   Unit* mismatch(const Extension& x) { return rows_[x.mismatch]; }
-  /// loop += scale * gamma.
+  /// Computes loop += scale * gamma.
   void add_gamma(LinkPairs<K>& loop, const Extension& x, const FlagEdge& e, Element scale);
-  /// Extends the potential of a class to the next vertex of a forest; see extend_potential.
-  /// @return true if another edge requires a different value; `mismatch` then holds the
+  /// Extends the potential of a class to the next vertex of a forest (see extend_potential).
+  /// @return true if another edge requires a different value. In this case, `mismatch` contains the
   /// differences.
   bool extend_to(Extension& x, const FlagEdge& e, Vertex y, const LinkForest& forest);
 
  private:
   using Term = typename Cochain::Term;
 
-  /// to += scale * row, where `row` is a row of a cocycle. Only the values on the link count, in
-  /// the first `words` words.
+  /// Computes to += scale * row, where `row` is a row of a cocycle. Only the values on the link
+  /// count. They are in the first `words` words.
   void add_row(Unit* to, const Unit* row, Element scale, std::size_t words) const;
   /// Finds the potential on a link that has an apex.
   void extend_over_cone(Extension& x, const FlagEdge& e, Vertex apex);
-  /// Finds the potential in the order of a cover. @return false if there is none.
+  /// Finds the potential in the order of a cover. @return false if there is no potential.
   bool extend_over(Extension& x, const FlagEdge& e, const LinkCover& cover);
   /// Copies the terms of gamma on the link from lists into terms_, each pair in both orders.
   void collect_terms(Extension& x);
@@ -107,7 +108,7 @@ class LinkExtensions {
   std::pmr::vector<Extension> all_;
   RowPool<K> rows_;
   std::pmr::vector<Unit> gamma_;
-  std::pmr::vector<Term> terms_;  // for a pair (y,x) in either order: gamma(x,y)
+  std::pmr::vector<Term> terms_;  // for a pair (y,x) in either order, the value gamma(x,y)
 };
 
 template <Field K>
@@ -139,7 +140,8 @@ void LinkExtensions<K>::add_gamma(LinkPairs<K>& loop, const Extension& x, const 
                                   Element scale) {
   const std::size_t words = graph_.words();
   if (x.loop != nullptr) return loop.add(*x.loop, scale, words);
-  bits::for_each(graph_.link(), 0, words, [&](std::size_t y) {  // gamma(y,.) = -gamma(.,y)
+  // Gamma(y,.) = -gamma(.,y).
+  bits::for_each(graph_.link(), 0, words, [&](std::size_t y) {
     if (find_gamma(x, e, static_cast<Vertex>(y), graph_.link(), words))
       loop.add_half(static_cast<Vertex>(y), gamma_.data(), field_.negate(scale), words);
   });
@@ -269,7 +271,7 @@ bool LinkExtensions<K>::find_gamma(const Extension& x, const FlagEdge& e, Vertex
     const Vertex own = graph_.global(y);
     for (const bool at_v : {false, true}) {
       const Vertex end = at_v ? e.v : e.u;
-      // The row of an edge ab, a < b, holds phi(a,b,.) = -phi(a,.,b).
+      // The row of an edge ab with a < b contains phi(a,b,.) = -phi(a,.,b).
       if (const Unit* row = x.cocycle->row(end, own, cocycles_.shared())) {
         clear();
         add_row(gamma_.data(), row, field_.from_int(at_v == (end < own) ? 1 : -1), words);

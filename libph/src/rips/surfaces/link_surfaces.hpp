@@ -22,13 +22,14 @@ namespace ph {
 /// Computes H2 of a Vietoris-Rips filtration edge by edge. This is the part of the sweep of edge
 /// links that is needed for H2.
 ///
-/// An edge e = (u,v) enters with its star, which is glued to the present complex along the
+/// An edge e = (u,v) enters with its star, which is glued to the current complex along the
 /// suspension of e's link, a flag complex. A class of H2 is therefore born with each component of
 /// the link except the first, unless the component kills a class of H1. A class of H2 dies with a
-/// loop of the link. Each living class h is represented by a cocycle phi_h. To extend it to the new
-/// triangles, a potential is needed: a function p(w) = phi_h(u,v,w) on the vertices of the link for
-/// which p(y) - p(x) = gamma(x,y) := phi_h(u,x,y) - phi_h(v,x,y) for each edge xy of the link. If
-/// there is no potential, a class dies. See docs/explanation/engines/edge-links-h2.md.
+/// loop of the link. Each living class h is represented by a cocycle phi_h. To extend the cocycle
+/// to the new triangles, a potential is needed. A potential is a function p(w) = phi_h(u,v,w) on
+/// the vertices of the link for which p(y) - p(x) = gamma(x,y) := phi_h(u,x,y) - phi_h(v,x,y) for
+/// each edge xy of the link. If there is no potential, a class dies. See
+/// docs/explanation/engines/edge-links-h2.md.
 template <Field K>
 class LinkSurfaces {
  public:
@@ -58,15 +59,15 @@ class LinkSurfaces {
         own_star_(star_.size(), 0, &context.memory),
         cocycle_(&context.memory) {}
 
-  /// The birth of a class of H3: a cocycle of a link that kills no class of H2, and the first
-  /// tetrahedron where it stops being a coboundary.
+  /// The birth of a class of H3. It consists of a cocycle of a link that kills no class of H2, and
+  /// the first tetrahedron where this cocycle stops being a coboundary.
   struct BirthAbove {
     typename Observer::Tetrahedron birth;
     LinkPairs<K>* loop;
   };
 
-  /// Extends the living classes to the star of the edge whose link the graph holds, and kills
-  /// classes that cannot be extended.
+  /// Extends the living classes to the star of the edge whose link is stored in the graph, and
+  /// kills classes that cannot be extended.
   /// @param loops a basis of H^1 of the link, if births of H3 are wanted; the call may add other
   /// cocycles to its members.
   void extend(Position position, const FlagEdge& e, LinkComponents& components,
@@ -92,19 +93,19 @@ class LinkSurfaces {
   /// @param is_extended true if only pairs of length zero are left to find.
   void sweep(Position position, const FlagEdge& e, bool is_extended);
   void kill_mismatched(Position position, const FlagEdge& e, Vertex y);
-  /// The value that the edge to w requires for the last vertex, minus the value that the extension
-  /// has there.
+  /// The value that the edge to w requires for the last vertex, minus the value of the extension at
+  /// this vertex.
   Element mismatch_of(const Extension& x, Vertex w);
-  /// Adds younger classes to the classes that are mismatched at w. Afterwards, the youngest of
-  /// these classes, which is the dying one, is the only one with a mismatch at w. @param words the
-  /// number of words in use per row.
+  /// Adds younger classes to the classes that are mismatched at w. Afterwards, only the youngest of
+  /// these classes, which is the dying class, has a mismatch at w. @param words the number of words
+  /// in use per row.
   void correct_others(std::size_t dying, const FlagEdge& e, Vertex w, std::size_t words);
   /// Reports a pair of length zero, whose death is a tetrahedron that joins two parts of the link.
   /// @param root, part the root and the vertices of one of these parts.
   void report_zero_length(const FlagEdge& e, Vertex root, const Word* part,
                           typename Observer::Tetrahedron tetrahedron);
   void store(const Extension& x, const FlagEdge& e, const LinkComponents& components);
-  /// phi_h(u,v,.) += star, a function on the link.
+  /// Computes phi_h(u,v,.) += star, where `star` is a function on the link.
   void add_star(Generator h, const FlagEdge& e, const Unit* star);
   void find_cocycle(Generator h);
   /// Adds phi(u,v,.) to cocycle_. @param star its values, in the first `words` words.
@@ -116,14 +117,14 @@ class LinkSurfaces {
   Observer& observer_;
   Cocycles cocycles_;
   std::pmr::vector<Triangle> births_;  // birth of each generator; edge = kDead after its death
-  // Used while an edge is added:
+  // The following members are used while an edge is added.
   LinkCover cover_;
   LinkForest forest_;
   LinkExtensions<K> extensions_;
   std::pmr::vector<BirthAbove> births_above_;
-  std::pmr::vector<std::size_t> partners_;  // for each extension: the extension to be added to it
+  std::pmr::vector<std::size_t> partners_;  // for each extension, the extension to be added to it
   std::pmr::vector<Unit> star_;             // values on the link
-  std::pmr::vector<Unit> own_star_;         // values on all vertices; zero between uses
+  std::pmr::vector<Unit> own_star_;         // values on all vertices; all are zero between uses
   std::pmr::vector<typename Observer::TriangleValue> cocycle_;
 };
 
@@ -204,7 +205,8 @@ void LinkSurfaces<K>::kill_mismatched(Position position, const FlagEdge& e, Vert
   const std::size_t words = LinkForest::words_to(y);
   auto& all = extensions_.all();
   for (Vertex from = 0;;) {
-    // The first tetrahedron across which some class does not extend kills the youngest such class.
+    // The first tetrahedron across which some class does not extend kills the youngest of these
+    // classes.
     std::size_t first = bits::kNone;
     for (const Extension& x : all)
       if (x.is_mismatched)
@@ -238,8 +240,8 @@ void LinkSurfaces<K>::kill_mismatched(Position position, const FlagEdge& e, Vert
 template <Field K>
 void LinkSurfaces<K>::correct_others(std::size_t dying, const FlagEdge& e, Vertex w,
                                      std::size_t words) {
-  // To each other mismatched extension, a multiple of a younger mismatched class is added: of the
-  // smallest such class, as it was before this step. Loops come before all classes.
+  // A multiple of a younger mismatched class is added to each other mismatched extension. The
+  // smallest such class is used, in its state before this step. Loops come before all classes.
   auto& all = extensions_.all();
   partners_.assign(dying, dying);
   std::size_t partner = dying;
@@ -305,7 +307,7 @@ template <Field K>
 void LinkSurfaces<K>::add_star_to_cocycle(const FlagEdge& e, const Unit* star, std::size_t blocks) {
   Function::for_each(star, blocks, [&](std::size_t apex, Element a) {
     std::array<Vertex, 3> vertices{e.v, e.u, graph_.global(static_cast<Vertex>(apex))};
-    // phi(u,v,w): true if sorting (v,u,w) takes an odd number of swaps
+    // The sign of phi(u,v,w) changes if sorting (u,v,w) takes an odd number of swaps.
     const bool is_odd = vertices[2] > e.u || vertices[2] < e.v;
     std::ranges::sort(vertices);
     cocycle_.push_back({vertices, is_odd ? field_.negate(a) : a});

@@ -14,10 +14,10 @@
 
 namespace ph {
 
-/// A 2-cochain phi of a flag complex, an alternating function of three vertices, stored where it is
-/// not zero. If it has few triangles, they are stored as sorted lists, each triangle in the lists
-/// of its three corners. If it has many, it is dense: the values phi(a,b,.) are stored as rows, one
-/// per edge (a,b), a < b.
+/// A 2-cochain phi of a flag complex, which is an alternating function of three vertices. Only its
+/// non-zero values are stored. If it has few triangles, they are stored as sorted lists, and each
+/// triangle is in the lists of its three corners. If it has many triangles, the cochain is dense:
+/// the values phi(a,b,.) are stored as rows, one for each edge (a,b) with a < b.
 template <Field K>
 class TriangleCochain {
  public:
@@ -61,11 +61,12 @@ class TriangleCochain {
   bool is_dense() const { return !at_.empty(); }
   /// The list of a vertex, unless the cochain is dense.
   Terms terms(Vertex a, const Shared& shared) const { return lists_.terms(a, shared); }
-  /// False only if the cochain is zero on all triangles at a whose other two vertices lie in the
+  /// False only if the cochain is zero on all triangles at a whose other two vertices are in the
   /// link.
   /// @param terms the list of a.
   bool touches(Vertex a, Terms terms, const LinkGraph& graph) const;
-  /// For a dense cochain: phi(a,b,.) if a < b, otherwise -phi(a,b,.); null if that is zero.
+  /// For a dense cochain, returns phi(a,b,.) if a < b, otherwise -phi(a,b,.). Returns null if this
+  /// function is zero.
   const Unit* row(Vertex a, Vertex b, const Shared& shared) const {
     return has_row(a, b) ? shared.rows[at_[a].rows[b]] : nullptr;
   }
@@ -77,10 +78,11 @@ class TriangleCochain {
   template <class OnEnter, class OnLeave>
   void add(TriangleCochain& other, Element scale, Shared& shared, OnEnter&& on_enter,
            OnLeave&& on_leave);
-  /// phi(u,v,w) += star(w) for all w; u > v, and these triangles must have no values yet.
+  /// Computes phi(u,v,w) += star(w) for all w. Preconditions: u > v, and these triangles have no
+  /// values yet.
   template <class OnEnter>
   void add_star(Vertex u, Vertex v, const Unit* star, Shared& shared, OnEnter&& on_enter);
-  /// Makes the cochain zero and gives its memory back. Calls `on_leave(a)` as `add` does.
+  /// Makes the cochain zero and frees its memory. Calls `on_leave(a)` in the same way as `add`.
   template <class OnLeave>
   void clear(Shared& shared, OnLeave&& on_leave);
 
@@ -112,14 +114,14 @@ class TriangleCochain {
     on_enter(a, 0);
   }
   void make_row(Vertex a, Vertex b, Shared& shared);
-  /// phi(a,b,c) += value, in the row of ab, a < b.
+  /// Computes phi(a,b,c) += value in the row of the edge ab, where a < b.
   void add_to_row(Vertex a, Vertex b, Vertex c, Element value, Shared& shared) {
     Function::add_at(made_row(a, b, shared), c, value, shared.field);
   }
   /// Makes the cochain dense if it is large.
   void adapt(Shared& shared) {
-    // If there are many cochains, lists are kept longer, because their rows would displace each
-    // other from the caches.
+    // If there are many cochains, lists are kept longer, because the rows of many cochains would
+    // displace each other from the caches.
     constexpr std::size_t many = 16;
     const std::size_t most = shared.living < many ? shared.most_terms : 2 * shared.most_terms;
     if (!is_dense() && lists_.term_count() > most) make_dense(shared);
@@ -128,8 +130,8 @@ class TriangleCochain {
   template <class OnEnter>
   void add_star_to_rows(Vertex u, Vertex v, const Unit* star, Shared& shared, OnEnter&& on_enter);
   void drop_zero_rows(Shared& shared);
-  /// Calls `visit(a)` for the vertices of its triangles and possibly for some others, in ascending
-  /// order.
+  /// Calls `visit(a)` for the vertices of its triangles and possibly for some other vertices, in
+  /// ascending order.
   template <class Visit>
   void for_each_vertex(Visit&& visit) const;
   /// Calls `visit(a, b, row id)` for a < b.
@@ -215,7 +217,8 @@ void TriangleCochain<K>::add_star_to_rows(Vertex u, Vertex v, const Unit* star, 
     if (!has_row(u, w)) make_row(u, w, shared);
     if (!has_row(v, w)) make_row(v, w, shared);
   });
-  // Rows lie at random places in memory: all are prefetched before the first is used.
+  // Rows are at random places in memory. All rows are therefore prefetched before the first row is
+  // used.
   const auto *of_u = at_[u].rows.data(), *of_v = at_[v].rows.data();
   Function::for_each(star, shared.blocks, [&](std::size_t w, Element) {
     __builtin_prefetch(of_u + w);

@@ -8,14 +8,14 @@
 namespace ph {
 namespace {
 
-// The position of a number in a list where it occurs at most once; `count` if the list does not
-// have it.
+// The position of a number in a list where it occurs at most once. Returns `count` if the number is
+// not in the list.
 PH_FOR_EACH_TARGET
 std::size_t position_of(std::uint32_t number, const std::uint32_t* numbers, std::size_t count) {
-  constexpr std::size_t block = 64;  // scanned without branches
+  constexpr std::size_t block = 64;  // a block is scanned without branches
   for (std::size_t begin = 0; begin < count; begin += block) {
     const std::size_t size = std::min(block, count - begin);
-    std::uint32_t place = 0;  // counted from one
+    std::uint32_t place = 0;  // the place is counted from one
     for (std::uint32_t i = 0; i < size; ++i) place |= numbers[begin + i] == number ? i + 1 : 0;
     if (place != 0) return begin + place - 1;
   }

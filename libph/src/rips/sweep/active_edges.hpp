@@ -10,14 +10,15 @@
 namespace ph {
 
 /// Some edges of a graph. Each edge is listed at both of its ends, in no particular order, with a
-/// label at each end: the data of the edge as seen from there. To find a label, the list of a
-/// vertex is scanned, because a vertex has few such edges.
+/// label at each end. The label contains the data of the edge as seen from this end. To find a
+/// label, the list of a vertex is scanned, because a vertex has few of these edges.
 class ActiveEdges {
  public:
   using Vertex = std::uint32_t;
   using Label = std::uint32_t;
 
-  /// @param has_rows true if edges are also stored as rows of bits, one bit per pair of vertices.
+  /// @param has_rows true if edges are also stored as rows of bits, with one bit for each pair of
+  /// vertices.
   ActiveEdges(std::size_t vertices, bool has_rows, std::pmr::memory_resource* memory)
       : at_(memory),
         degrees_(vertices, 0, memory),
@@ -40,7 +41,7 @@ class ActiveEdges {
   void insert(Vertex u, Vertex v, Label at_u, Label at_v);
   /// Removes all edges.
   void clear();
-  /// Removes an edge that must be present.
+  /// Removes an edge. Precondition: the edge is present.
   void erase(Vertex u, Vertex v);
 
  private:
@@ -57,9 +58,9 @@ class ActiveEdges {
   void erase_at(Vertex u, Vertex v);
 
   // The list of each vertex. With rows, lists may still contain removed edges, because searching
-  // for each of these would take longer than cleaning up a list now and then.
+  // for each removed edge would take longer than occasionally cleaning up a list.
   std::pmr::vector<Ends> at_;
-  // The number of edges at each vertex. This is the most frequent query, and mostly the answer is
+  // The number of edges at each vertex. This is the most frequent query, and the answer is usually
   // 0.
   std::pmr::vector<std::uint32_t> degrees_;
   BitMatrix rows_;

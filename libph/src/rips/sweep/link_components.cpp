@@ -59,7 +59,8 @@ void LinkComponents::find_roots(const FlagEdge& e) {
   roots_.clear();
   sets_.clear();
   apex_ = kNone;
-  // Bits mark vertices that have been met, and vertices whose neighbours are still to be visited.
+  // Bits mark vertices that have been reached, and vertices whose neighbours have not been visited
+  // yet.
   for (std::uint32_t met = 0, left = 0, i = 0; i < count; ++i) {
     if ((met >> i & 1) != 0) continue;  // mutant: formal-components
     roots_.push_back(vertices[i]);
@@ -82,7 +83,7 @@ bool LinkComponents::take_component(Vertex first) {
   bool is_left = bits::split(rest_.data(), graph_.row(first), component, 0, words);
   set(component, first);
   // Usually only few vertices are left, and they are joined to one another. If one of them is
-  // joined to the component, it brings along its neighbours.
+  // joined to the component, its neighbours are also joined to the component.
   for (bool grew = true; is_left && grew;) {
     grew = is_left = false;
     for (std::size_t k = 0; k < words; ++k) {
@@ -116,8 +117,8 @@ void LinkComponents::sort_components() {
 }
 
 bool LinkComponents::find_apex(const FlagEdge& e) {
-  // An apex is joined to every other vertex. It is therefore a neighbour of any vertex that a
-  // candidate is not joined to.
+  // An apex is joined to every other vertex. If a candidate is not joined to some vertex, the apex
+  // is therefore a neighbour of this vertex.
   const std::size_t words = graph_.words();
   const auto has = [&](std::size_t w) { return (rest_[w / 64] >> (w % 64) & 1) != 0; };
   rest_.assign(graph_.link(), graph_.link() + words);

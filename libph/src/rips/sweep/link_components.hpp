@@ -11,8 +11,8 @@
 namespace ph {
 
 /// The connected components of a link, with vertices numbered within the link. Most links are
-/// cones: one vertex, the apex, is joined to all others. An apex is often an apex for the next edge
-/// at the same vertex as well.
+/// cones, in which one vertex, the apex, is joined to all others. An apex is often also an apex for
+/// the next edge at the same vertex.
 class LinkComponents {
  public:
   using Vertex = std::uint32_t;
@@ -27,21 +27,20 @@ class LinkComponents {
         sets_(memory),
         rest_(memory) {}
 
-  /// Finds the components of the link that the graph holds, which must be the link of e and not
-  /// empty.
+  /// Finds the components of the link that is stored in the graph. Preconditions: it is the link of
+  /// e, and it is not empty.
   void find(const FlagEdge& e);
-  /// Finds only the roots of the components, of any link. This is fast if the link has few
-  /// vertices.
+  /// Finds only the roots of the components of any link. This is fast if the link has few vertices.
   void find_roots(const FlagEdge& e);
-  /// Looks for an apex if `find` has not found one. @return true if there is one.
+  /// Looks for an apex if `find` has not found one. @return true if there is an apex.
   bool find_apex(const FlagEdge& e);
 
   /// The number of components. Their roots are in ascending order.
   std::size_t count() const { return roots_.size(); }
   std::span<const Vertex> roots() const { return roots_; }
-  /// A component's smallest vertex; any vertex if it is the only component.
+  /// The smallest vertex of a component. If the link has only one component, returns any vertex.
   Vertex root(std::size_t i) const { return roots_[i]; }
-  /// The vertices of a component, unless it is the only one.
+  /// The vertices of a component, unless it is the only component.
   const Word* vertices(std::size_t i) const { return sets_.data() + i * graph_.words(); }
   bool has_apex() const { return apex_ != kNone; }
   Vertex apex() const { return apex_; }
@@ -54,12 +53,13 @@ class LinkComponents {
     apex_ = apex;
     last_apex_[e.u] = last_apex_[e.v] = graph_.global(apex);
   }
-  /// Moves a vertex's component from rest_ to the end of sets_. @return true if more is left.
+  /// Moves a vertex's component from rest_ to the end of sets_. @return true if rest_ is not empty.
   bool take_component(Vertex first);
   void sort_components();
 
   LinkGraph& graph_;
-  std::pmr::vector<Vertex> last_apex_;  // last apex for each vertex as an end of edges
+  // For each vertex, the last apex of an edge with this vertex as an end.
+  std::pmr::vector<Vertex> last_apex_;
   std::pmr::vector<Vertex> roots_;
   std::pmr::vector<Word> sets_;  // one row per component
   std::pmr::vector<Word> rest_;

@@ -9,10 +9,10 @@
 
 namespace ph {
 
-/// An order in which potentials spread over a link: in each component, first from a hub to all of
-/// its neighbours, then to the other vertices one by one. The hub and its neighbours span a cone,
-/// on which every cocycle has a potential. At each further vertex, the potential must agree with
-/// all neighbours that come earlier.
+/// An order in which potentials spread over a link. In each component, they spread first from a hub
+/// to all neighbours of the hub, then to the other vertices one by one. The hub and its neighbours
+/// span a cone, on which every cocycle has a potential. At each further vertex, the potential must
+/// agree with all neighbours that come earlier.
 class LinkCover {
  public:
   using Vertex = std::uint32_t;
@@ -38,17 +38,18 @@ class LinkCover {
 
   std::size_t size() const { return steps_.size(); }
   const Step& operator[](std::size_t i) const { return steps_[i]; }
-  /// The neighbours of the vertex of a step: all of them for a hub, otherwise the neighbours that
-  /// come earlier, of which there is at least one.
+  /// The neighbours of the vertex of a step. For a hub, they are all neighbours. For any other
+  /// vertex, they are the neighbours that come earlier, and there is at least one of them.
   const Word* neighbours(std::size_t i) const { return sets_.data() + i * graph_.words(); }
 
  private:
-  /// Chooses a hub: the vertex with most neighbours among the given vertex and a small sample of
-  /// the set.
+  /// Chooses a hub, which is the vertex with the most neighbours among the given vertex and a small
+  /// sample of the set.
   Vertex find_hub(const Word* set, Vertex first);
-  /// Covers the component of a hub. @return true if a part of the set is left, in rest_.
+  /// Covers the component of a hub. @return true if a part of the set is left in rest_.
   bool cover(const Word* set, Vertex hub);
-  /// Appends a step. @return its row, which is set to the neighbours of its vertex in a set.
+  /// Appends a step. @return the row of the step, which is set to the neighbours of its vertex in a
+  /// set.
   Word* add_step(const Step& step, const Word* set);
 
   LinkGraph& graph_;

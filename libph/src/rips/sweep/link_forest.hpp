@@ -9,9 +9,9 @@
 
 namespace ph {
 
-/// The components of a growing graph: vertices come one by one, ascending, each with its edges to
-/// earlier vertices. If the graph is the link of an edge of the filtration, its edges correspond to
-/// the tetrahedra over that edge, in the same order.
+/// The components of a growing graph. Vertices come one by one, in ascending order, each with its
+/// edges to earlier vertices. If the graph is the link of an edge of the filtration, the edges of
+/// the graph correspond to the tetrahedra over that edge, in the same order.
 class LinkForest {
  public:
   using Vertex = std::uint32_t;
@@ -39,21 +39,21 @@ class LinkForest {
   }
   /// Finds the parts that the next vertex of a set is joined to.
   void meet(Vertex y, const Word* set);
-  /// The parts found, in the order of the edges from y; valid until the next `meet`.
+  /// The parts found, in the order of the edges from y. They are valid until the next `meet`.
   const std::pmr::vector<Meeting>& meetings() const { return meetings_; }
-  /// The neighbours of y in a part; words up to the word of y are valid.
+  /// The neighbours of y in a part. The words up to the word of y are valid.
   const Word* neighbours(std::size_t meeting) const {
     return shared_.data() + meeting * graph_.words();
   }
-  /// The neighbours of y before y; words up to the word of y are valid.
+  /// The neighbours of y before y. The words up to the word of y are valid.
   const Word* neighbours() const { return before_.data(); }
   const Word* part(const Meeting& m) const { return part(m.part); }
-  /// Number of all parts; parts that were merged into others are empty.
+  /// The number of all parts. Parts that were merged into others are empty.
   std::size_t part_count() const { return roots_.size(); }
   const Word* part(std::size_t i) const { return parts_.data() + i * graph_.words(); }
 
-  /// Adds the vertex. Calls `on_join(younger root, its vertices, w)` for each edge wy that joins
-  /// two parts; at first, y alone is a part of its own.
+  /// Adds the vertex. At first, y alone is a part. Calls `on_join(younger root, its vertices, w)`
+  /// for each edge wy that joins two parts.
   template <class OnJoin>
   void join(Vertex y, OnJoin&& on_join);
 
@@ -68,7 +68,8 @@ class LinkForest {
 
   LinkGraph& graph_;
   std::pmr::vector<Vertex> roots_;  // smallest vertex of each part
-  std::pmr::vector<Word> parts_;    // one row each; empty once merged into another
+  // One row for each part; empty once the part has been merged into another.
+  std::pmr::vector<Word> parts_;
   std::pmr::vector<Meeting> meetings_;
   std::pmr::vector<Word> shared_;  // one row per meeting
   std::pmr::vector<Word> before_;

@@ -11,7 +11,7 @@
 namespace ph {
 namespace {
 
-// The number of edges that a thread takes at a time; fewer edges are not worth a thread.
+// The number of edges that a thread takes at a time. Fewer edges are not worth a thread.
 constexpr std::size_t kPiece = 1 << 17;
 
 // The neighbours of a vertex in a link of at most 64 vertices, as bits.
@@ -74,8 +74,8 @@ LinkGraph::LinkGraph(const ActiveEdges& active, const BinnedEdges& edges, LinkLa
 }
 
 LinkLayout LinkGraph::choose_layout(std::size_t vertices, std::size_t edges) {
-  // Measured: rows are faster if the average degree is at least n / 128. They then take at most
-  // four times the memory of the edges.
+  // Measurements show that rows are faster if the average degree is at least n / 128. Rows then
+  // take at most four times the memory of the edges.
   const auto n = static_cast<double>(vertices), m = static_cast<double>(edges);
   return 2 * m * 128 >= n * n ? LinkLayout::rows : LinkLayout::lists;
 }
@@ -161,7 +161,7 @@ bool LinkGraph::touches_active_in_rows(const FlagEdge& e) const {
 
 LinkGraph::Link LinkGraph::find_link_in_rows(const FlagEdge& e, bool wants_graph) {
   const bool touches = touches_active_in_rows(e);
-  // If nothing can happen, it is enough to know if there is any common neighbour.
+  // If nothing can happen, it is enough to know whether there is any common neighbour.
   if (!touches && !wants_graph) return {!has_link(e.u, e.v), false};
   return {!bits::intersect(joined_.row(e.u), joined_.row(e.v), link_.data(), words_), touches};
 }

@@ -18,25 +18,26 @@ namespace ph {
 
 /// How a sweep of edge links stores the edges so far.
 enum class LinkLayout {
-  automatic,  ///< the fastest affordable layout
+  automatic,  ///< the fastest layout that is affordable
   rows,       ///< two bits per pair of vertices, one bit for each order
-  lists,      ///< the neighbours of each vertex: two or four bytes per end of an edge
+  lists,      ///< the neighbours of each vertex, with two or four bytes per end of an edge
 };
 
-/// Stores the edges so far of a flag filtration, and the link of a new edge: the common neighbours
-/// of its two ends. The graph on the link is stored as rows of bits. In that graph, vertices have
-/// local numbers, in the same order as their global numbers. With the layout `lists`, the vertices
-/// of the link are numbered 0, 1, …, and a row usually takes one or two words. With the layout
-/// `rows`, local and global numbers are the same, and nothing is copied.
+/// Stores the edges so far of a flag filtration, and the link of a new edge. The link consists of
+/// the common neighbours of the two ends of the edge. The graph on the link is stored as rows of
+/// bits. In that graph, vertices have local numbers, in the same order as their global numbers.
+/// With the layout `lists`, the vertices of the link are numbered 0, 1, …, and a row usually takes
+/// one or two words. With the layout `rows`, local and global numbers are the same, and nothing is
+/// copied.
 class LinkGraph {
  public:
   using Vertex = std::uint32_t;
   using Word = bits::Word;
   static constexpr Vertex kNone = UINT32_MAX;
 
-  /// @param active the active edges among the edges so far. It must outlive this object; with
-  /// lists, it must have no rows. @param edges all edges that may be added. @param layout rows or
-  /// lists.
+  /// @param active the active edges among the edges so far. It must outlive this object. With the
+  /// layout `lists`, it must have no rows. @param edges all edges that may be added. @param layout
+  /// rows or lists.
   LinkGraph(const ActiveEdges& active, const BinnedEdges& edges, LinkLayout layout,
             std::pmr::memory_resource* memory);
 
@@ -51,7 +52,7 @@ class LinkGraph {
   void add_all(std::span<const FlagEdge> edges, const RunContext& context);
 
   /// Calls `visit(w)` for each neighbour in a set. @param set one bit per vertex; `visit` may
-  /// remove vertices.
+  /// remove vertices from the set.
   template <class Visit>
   void for_each_neighbour(Vertex v, const Word* set, Visit&& visit) const {
     if (layout_ == LinkLayout::lists) {
@@ -77,9 +78,9 @@ class LinkGraph {
     bool is_empty;
     bool touches_active;
   };
-  /// Examines the link of an edge that is not present yet: finds out if it is empty, and if an
-  /// active edge joins it to an end of the edge. If active edges touch the link or `wants_graph` is
-  /// set, the members below refer to this link.
+  /// Examines the link of an edge that is not present yet. Finds out whether the link is empty, and
+  /// whether an active edge joins it to an end of the edge. If active edges touch the link or
+  /// `wants_graph` is set, the members below refer to this link.
   Link find_link(const FlagEdge& e, bool wants_graph);
 
   std::size_t words() const { return words_; }  ///< words per row
@@ -94,7 +95,8 @@ class LinkGraph {
   bool keeps_numbers() const { return layout_ == LinkLayout::rows; }
   /// Converts the number of a vertex in the link to its global number.
   Vertex global(Vertex v) const { return keeps_numbers() ? v : vertices_[v]; }
-  /// Converts a global number to the number in the link; kNone if the vertex is not in the link.
+  /// Converts a global number to the number in the link. Returns kNone if the vertex is not in the
+  /// link.
   Vertex local(Vertex v) const {
     if (!keeps_numbers()) return local_[v];
     return link_[v / 64] >> (v % 64) & 1 ? v : kNone;
@@ -115,7 +117,8 @@ class LinkGraph {
   bool has_link_anywhere(Vertex u, Vertex v) const;
   Link find_link_in_rows(const FlagEdge& e, bool wants_graph);
   Link find_link_in_lists(const FlagEdge& e, bool wants_graph);
-  /// True if `in_link(v, w)` holds for an active edge uw, or `in_link(u, w)` for an active edge vw.
+  /// True if `in_link(v, w)` is true for an active edge uw, or `in_link(u, w)` is true for an
+  /// active edge vw.
   template <class InLink>
   bool touches_active(const FlagEdge& e, InLink&& in_link) const;
   bool touches_active_in_rows(const FlagEdge& e) const;
@@ -124,17 +127,17 @@ class LinkGraph {
 
   const ActiveEdges& active_;
   LinkLayout layout_;
-  // For rows:
+  // The following members are used with rows.
   BitMatrix joined_;
   // Landmarks are up to 64 vertices that are spread over the graph, because most links then contain
-  // one of them. For each vertex: its own bit if it is a landmark, and the bits of the landmarks
-  // among its neighbours.
+  // one of them. For each vertex, these members have the bit of the vertex itself if it is a
+  // landmark, and the bits of the landmarks among its neighbours.
   std::pmr::vector<Word> landmark_, landmarks_at_;
-  // For lists, with 16-bit numbers if these are enough:
+  // The following members are used with lists. The first is used if 16-bit numbers are enough.
   NeighbourLists<std::uint16_t> short_lists_;
   NeighbourLists<Vertex> lists_;
   std::pmr::vector<std::uint8_t> marks_;  // 0 for each vertex between uses
-  // For the link:
+  // The following members describe the link.
   std::size_t words_;
   std::pmr::vector<Word> link_;
   std::pmr::vector<Vertex> vertices_;  // global number of each vertex of the link

@@ -15,7 +15,7 @@
 namespace ph {
 
 /// The neighbours of each vertex of a graph that grows edge by edge, ascending. The edges are known
-/// in advance, though not their order. Each list therefore has exactly the room that it will need.
+/// in advance, but their order is not. Each list therefore has exactly the room that it will need.
 /// @tparam Vertex an unsigned integer type that can number all vertices.
 template <class Vertex>
 class NeighbourLists {

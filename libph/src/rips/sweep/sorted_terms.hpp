@@ -12,7 +12,8 @@
 
 namespace ph {
 
-/// list += scale * terms, both ascending by cell, with each cell once and no zeros.
+/// Computes list += scale * terms. The list and the terms are in ascending order by cell, with each
+/// cell once and no zeros.
 /// @param terms must not be part of the list. @param merged scratch; its content is lost.
 template <class Cell, Field K>
 void add_sorted_terms(std::pmr::vector<Entry<Cell, K>>& list,
@@ -44,7 +45,8 @@ void add_sorted_terms(std::pmr::vector<Entry<Cell, K>>& list,
   const Term *j = terms.data(), *const last = j + terms.size();
   Term* out = merged.data();
   while (i != end && j != last) {
-    if constexpr (std::same_as<K, Z2>) {  // branchless, because the order of terms is unpredictable
+    // This avoids branches, because the order of terms is unpredictable.
+    if constexpr (std::same_as<K, Z2>) {
       const Cell a = i->cell, b = j->cell;
       *out = a < b ? *i : *j;
       out += a != b ? 1 : 0;

@@ -10,13 +10,13 @@
 
 namespace ph {
 
-/// Thresholds at which a sweep of edge links changes its method; results do not depend on them.
+/// Thresholds at which a sweep of edge links changes its method. Results do not depend on them.
 struct SweepTuning {
   LinkLayout layout = LinkLayout::automatic;
   /// The largest average number of terms of a cocycle per vertex for which lists are used instead
   /// of rows.
   std::size_t most_terms = 64;
-  /// The largest number of vertices for which active edges are stored as rows as well as lists.
+  /// The largest number of vertices for which active edges are stored both as rows and as lists.
   std::size_t vertices_of_active_rows = 1 << 11;
   /// The least number of living classes of H1 for which RelationSolver is used.
   std::size_t classes_for_formal = 1 << 9;
@@ -25,10 +25,11 @@ struct SweepTuning {
 
 /// The output that is wanted of a sweep of edge links.
 struct SweepRequest {
-  bool surfaces = false;  ///< includes H2
-  /// Includes H3. Needs `surfaces`, and gives only bars of positive length without representatives.
+  bool surfaces = false;  ///< true if H2 is wanted
+  /// True if H3 is wanted. Needs `surfaces`, and gives only bars of positive length without
+  /// representatives.
   bool volumes = false;
-  bool cycles = false;  ///< cycles of H1
+  bool cycles = false;  ///< true if cycles of H1 are wanted
   bool cocycles = false;
   bool zero_length = false;
   SweepTuning tuning = {};
@@ -71,19 +72,19 @@ class SweepObserver {
   };
 
   virtual ~SweepObserver() = default;
-  /// The position of a present edge in the order of the filtration; called for the edges of cycles.
+  /// The position of a present edge in the order of the filtration. Called for the edges of cycles.
   virtual Position position_of(Vertex u, Vertex v) const = 0;
-  /// Two components, named by their oldest vertices, are joined.
+  /// Called when two components, named by their oldest vertices, are joined.
   virtual void on_join(Vertex elder, Vertex younger, Position edge) = 0;
-  /// A class of H1 dies.
+  /// Called when a class of H1 dies.
   virtual void on_death(Position birth, Triangle death,
                         std::span<const EdgeValue> representative) = 0;
-  /// A class of H2 dies.
+  /// Called when a class of H2 dies.
   virtual void on_death(Triangle birth, Tetrahedron death,
                         std::span<const TriangleValue> cocycle) = 0;
-  /// A class of H3 dies.
+  /// Called when a class of H3 dies.
   virtual void on_death(Tetrahedron birth, Pentachoron death) = 0;
-  /// A class that never dies.
+  /// Called for a class that never dies.
   virtual void on_essential(Position birth, std::span<const EdgeValue> representative) = 0;
   virtual void on_essential(Triangle birth, std::span<const TriangleValue> cocycle) = 0;
   virtual void on_essential(Tetrahedron birth) = 0;
