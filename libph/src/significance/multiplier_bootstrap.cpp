@@ -13,7 +13,7 @@
 namespace ph {
 namespace {
 
-constexpr double kLargest = 1e300;  // keeps sums finite
+constexpr double kLargest = 1e300;  // this limit keeps sums finite
 
 void check(std::span<const double> functions, std::size_t samples, const BandOptions& options) {
   significance::check_alpha(options.alpha, "multiplier_bootstrap");

@@ -57,13 +57,13 @@ void check(const DistanceMatrix& distances, std::size_t labels, const Permutatio
                             labels, distances.size()));
 }
 
-/// A unit in which the power of the largest distance neither overflows nor underflows; 1 if
-/// possible.
+/// A unit in which the power of the largest distance neither overflows nor underflows. The unit is
+/// 1 if possible.
 double unit_of(const DistanceMatrix& distances, double power) {
   double largest = 0;
   for (Index i = 0; i < distances.size(); ++i)
     for (Index j = 0; j < i; ++j) largest = std::max(largest, distances(i, j));
-  const double least = 1e-280, most = 1e280;  // leaves room for sums of powers
+  const double least = 1e-280, most = 1e280;  // these limits leave room for sums of powers
   const double of_largest = std::pow(largest, power);
   // mutant: permutation-powers
   return largest == 0 || (of_largest >= least && of_largest <= most) ? 1 : largest;
@@ -88,8 +88,8 @@ std::pmr::vector<double> powers_of(const DistanceMatrix& distances, double power
   return powers;
 }
 
-/// The sum, over all groups, of half the mean power of the pairs in the group: 1 / (2 n (n - 1))
-/// times the sum over ordered pairs.
+/// The sum, over all groups, of half the mean power of the pairs in the group. For a group of n
+/// diagrams, this is 1 / (2 n (n - 1)) times the sum over ordered pairs.
 double loss_of(std::span<const double> powers, std::span<const std::uint32_t> groups,
                std::span<const std::size_t> sizes, std::vector<double>& sums) {
   sums.assign(sizes.size(), 0.0);
@@ -117,8 +117,8 @@ PermutationTest permutation_test(const DistanceMatrix& distances,
   const double loss = loss_of(powers, observed.of, observed.sizes, sums);
   result.loss =
       unit == 1 ? loss : std::pow(unit * std::pow(loss, 1 / options.power), options.power);
-  // An allowance for rounding, because sums in a different order differ slightly. Shuffles that
-  // only exchange the labels of groups then count as ties.
+  // This allows for rounding, because sums in a different order differ slightly. Shuffles that only
+  // exchange the labels of groups then count as ties.
   const double as_low = loss * (1 + 1e-12);
   std::atomic<std::size_t> as_low_count = 0;
   for_each_piece("shuffles", options.shuffles, 1, context, [&](std::size_t begin, std::size_t end) {

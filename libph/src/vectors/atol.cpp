@@ -79,8 +79,8 @@ class KMeans {
     }
   };
 
-  /// Chooses the first centres by k-means++: the next centre is a random place, with a probability
-  /// proportional to its squared distance from the nearest earlier centre.
+  /// Chooses the first centres by k-means++. The next centre is a random place, chosen with a
+  /// probability proportional to its squared distance from the nearest earlier centre.
   void seed_centres(std::size_t count, std::uint64_t seed) {
     Random random(seed);
     std::ranges::fill(squares_, 1);
@@ -94,7 +94,7 @@ class KMeans {
         chosen = i;
         if ((rest -= heaps_[i].count * squares_[i]) < 0) break;
       }
-      if (chosen == heaps_.size()) chosen = first_free();  // happens if squares underflowed
+      if (chosen == heaps_.size()) chosen = first_free();  // this happens if squares underflowed
       const bool is_first = centres_.empty();
       centres_.push_back(heaps_[chosen].place);
       for (std::size_t i = 0; i < heaps_.size(); ++i) {
@@ -110,8 +110,8 @@ class KMeans {
     return 0;
   }
 
-  /// Assigns each place to its nearest centre, or to the first of several equally near ones, and
-  /// sums up the places of each centre.
+  /// Assigns each place to its nearest centre, and sums up the places of each centre. If several
+  /// centres are equally near, the first of them is used.
   /// @return true if any assignment has changed.
   bool assign() {
     const std::size_t pieces = (heaps_.size() - 1) / kPiece + 1, count = centres_.size();
@@ -130,7 +130,8 @@ class KMeans {
                      }
                    });
     is_new_ = false;
-    sums_.assign(count, {});  // sums in the order of pieces do not depend on the threads
+    // Sums in the order of pieces do not depend on the threads.
+    sums_.assign(count, {});
     for (std::size_t i = 0; i < sums.size(); ++i) sums_[i % count].add(sums[i]);
     return std::ranges::find(changed, 1) != changed.end();
   }
@@ -165,13 +166,14 @@ class KMeans {
   const RunContext& context_;
   std::vector<Place> centres_;
   std::vector<std::uint32_t> nearest_;
-  std::vector<double> squares_;  // squared distance of each place to its nearest centre
+  // The squared distance of each place to its nearest centre.
+  std::vector<double> squares_;
   std::vector<Sum> sums_;
   bool is_new_ = true;
 };
 
-/// The width of each centre: half its distance to the nearest other centre. For a single centre,
-/// the mean distance of the bars from it.
+/// The width of each centre. It is half the distance of the centre to the nearest other centre. For
+/// a single centre, it is the mean distance of the bars from the centre.
 std::vector<double> widths_of(const std::vector<Place>& centres, const std::vector<Heap>& heaps) {
   std::vector<double> widths;
   for (std::size_t k = 0; k < centres.size(); ++k) {
@@ -217,7 +219,8 @@ Atol fit_atol(std::span<const std::span<const Bar>> diagrams, const AtolOptions&
         ErrorKind::bad_data,
         fmt::format("{}: different bars: found {}, expected at least {}, the number of centres",
                     mark_place("fit_atol"), heaps.size(), options.centres));
-  // Uses a unit in which all numbers are below 1, because squares of small numbers would be 0.
+  // The unit is chosen so that all numbers are below 1, because squares of small numbers would be
+  // 0.
   double largest = 0;
   for (const auto& heap : heaps)
     largest = std::max({largest, std::abs(heap.place[0]), std::abs(heap.place[1])});

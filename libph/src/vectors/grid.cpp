@@ -20,12 +20,13 @@ struct Range {
   }
 };
 
-/// Returns a range that is longer than 0: the given range; if it is a single number, an interval of
-/// length `width` around it; if it is empty, [0, width].
+/// Returns a range that is longer than 0. This is the given range if possible. If the given range
+/// is a single number, it is an interval of length `width` around that number. If the given range
+/// is empty, it is [0, width].
 Range widened(const Range& range, double width) {
   if (range.lo > range.hi) return {0, width};
   if (range.lo < range.hi) return range;
-  // Large enough not to be lost to rounding when it is added to the number.
+  // The width is large enough not to be lost to rounding when it is added to the number.
   const double half = std::max(width / 2, std::ldexp(std::abs(range.lo), -40));
   return {range.lo - half, range.hi + half};
 }

@@ -22,24 +22,26 @@ class GridCells {
   std::size_t size() const { return values_.size(); }
   double operator[](std::size_t i) const { return values_[i]; }
 
-  /// The first place whose value is at least x; size() if there is none. x must not be NaN. O(1).
+  /// The first place whose value is at least x, or size() if there is no such place. x must not be
+  /// NaN. Takes O(1) time.
   std::size_t first_from(double x) const {
     return first(x, [x](double t) { return t >= x; });
   }
-  /// The first place where the tent of a bar falls: death - t < t - birth, with rounding. O(1).
+  /// The first place where the tent of a bar falls, that is, death - t < t - birth, with rounding.
+  /// Takes O(1) time.
   std::size_t first_falling(const Bar& bar) const {
     return first(bar.birth / 2 + bar.death / 2,
                  [&](double t) { return bar.death - t < t - bar.birth; });
   }
 
  private:
-  /// The first place where `is_behind` holds, searched near x. It must hold at all later places as
-  /// well.
+  /// The first place where `is_behind` is true, searched near x. `is_behind` must also be true at
+  /// all later places.
   template <class IsBehind>
   std::size_t first(double x, const IsBehind& is_behind) const {
     const double steps = per_step_ > 0 ? (x - values_.front()) * per_step_ : 0;
     auto guess = static_cast<std::size_t>(std::clamp(steps, 0.0, static_cast<double>(size())));
-    // Apart from rounding, the guess is correct or one too low.
+    // Apart from rounding, the guess is either correct or one too low.
     for (int i = 0; i < 2 && guess < size() && !is_behind(values_[guess]); ++i) ++guess;
     const bool is_end = guess == size() || is_behind(values_[guess]);
     // mutant: grid-place

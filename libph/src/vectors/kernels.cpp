@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kLeastExponent = 40;  // exp(-40) is 4e-18
 
-/// Σ exp(-|p - q|² / width²) · factor(p, q) over pairs of nearby bars.
+/// Computes Σ exp(-|p - q|² / width²) · factor(p, q) over pairs of nearby bars.
 template <class Factor>
 double sum_over_pairs(const std::vector<Bar>& a, std::vector<Bar> b, double width,
                       const RunContext& context, const Factor& factor) {
@@ -48,8 +48,8 @@ double scale_space_kernel(std::span<const Bar> a, std::span<const Bar> b, double
   const std::vector<Bar> first = vectors::checked_bars(a, Ends::finite, "scale_space_kernel");
   std::vector<Bar> second = vectors::checked_bars(b, Ends::finite, "scale_space_kernel");
   const double width = std::sqrt(8 * sigma);
-  // |p - q'|² is |p - q|² + 2 length(p) length(q): this form needs no difference of nearly equal
-  // numbers.
+  // The squared distance |p - q'|² equals |p - q|² + 2 length(p) length(q). This form needs no
+  // difference of nearly equal numbers.
   const double sum = vectors::sum_over_pairs(
       first, std::move(second), width, context, [width](const Bar& p, const Bar& q) {
         // mutant: kernel-mirror
@@ -81,7 +81,7 @@ std::vector<double> gram_matrix(std::span<const std::span<const Bar>> diagrams,
     std::uint32_t row, column;
   };
   const std::size_t count = diagrams.size();
-  // The claim counts half of the sorted list once more, for the buffer of the stable sort.
+  // The claim counts half of the sorted list a second time, for the buffer of the stable sort.
   const MemoryClaim claim(context.memory, count * count * sizeof(double) +
                                               3 * (count * (count + 1) / 2) * sizeof(Pair) / 2);
   std::vector<double> matrix(count * count);
@@ -89,7 +89,7 @@ std::vector<double> gram_matrix(std::span<const std::span<const Bar>> diagrams,
   pairs.reserve(count * (count + 1) / 2);
   for (std::uint32_t i = 0; i < count; ++i)
     for (std::uint32_t j = 0; j <= i; ++j) pairs.push_back({i, j});
-  // The longest tasks come first, which keeps a thread from starting a long task at the end.
+  // The longest tasks come first, so that no thread starts a long task at the end.
   std::ranges::stable_sort(pairs, std::greater<>(), [&](const Pair& pair) {
     return diagrams[pair.row].size() * diagrams[pair.column].size();
   });

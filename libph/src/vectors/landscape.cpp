@@ -14,7 +14,7 @@ namespace ph {
 namespace vectors {
 namespace {
 
-/// Keeps the best `most` of all numbers that were offered, in order.
+/// Keeps the best `most` numbers of all numbers that were offered, in order.
 template <class Better>
 class Best {
  public:
@@ -33,8 +33,8 @@ class Best {
   std::vector<double> numbers_;
 };
 
-/// Bars sorted by the place in the grid where their tents begin to fall. The bars of place i are
-/// begin[i] … begin[i + 1] - 1.
+/// Bars sorted by the place in the grid where their tents begin to fall. The bars of place i have
+/// the indices begin[i] … begin[i + 1] - 1.
 struct SortedByTop {
   std::pmr::vector<Bar> bars;
   std::pmr::vector<std::size_t> begin;
@@ -67,8 +67,8 @@ void landscape(std::span<const Bar> given, const Grid& grid, std::size_t layers,
   const std::size_t points = grid.points, most = std::min(layers, bars.size());
   const vectors::SortedByTop sorted(bars, cells, context);
   Ticker ticker(context, "landscape", 2 * points);
-  // Among the tents that rise at t, those of the bars born first are highest. Among the tents that
-  // fall at t, those of the bars that die last are highest.
+  // Among the tents that rise at t, the tents of the bars that are born first are highest. Among
+  // the tents that fall at t, the tents of the bars that die last are highest.
   vectors::Best<std::less<>> births(most);
   for (std::size_t i = points; i-- > 0;) {
     for (const Bar& bar : sorted.at(i + 1)) births.offer(bar.birth);
@@ -128,7 +128,7 @@ std::vector<PiecewiseLinear> exact_landscape(std::span<const Bar> given, std::si
   while (!tents.empty() && landscapes.size() < layers) {
     PiecewiseLinear& layer = landscapes.emplace_back();
     const auto add = [&](double t, double value) {
-      // Skips a point that rounding has made equal to the last one.
+      // A point that rounding has made equal to the last point is skipped.
       if (!layer.at.empty() && layer.at.back() == t) return;
       layer.at.push_back(t);
       layer.value.push_back(value);
@@ -136,8 +136,8 @@ std::vector<PiecewiseLinear> exact_landscape(std::span<const Bar> given, std::si
     const auto add_top = [&](const Bar& bar) {
       add(bar.birth / 2 + bar.death / 2, (bar.death - bar.birth) / 2);
     };
-    // Follows the upper envelope of the tents. Where one tent emerges from another, the part below
-    // both remains for lower layers.
+    // The loop follows the upper envelope of the tents. Where one tent emerges from another, the
+    // part below both tents remains for lower layers.
     below.clear();
     Bar now = tents.front(), shared;
     bool has_shared = false;

@@ -4,7 +4,7 @@
 
 namespace ph::vectors {
 
-/// A sum with about twice as many digits as a double: numbers that are added and later subtracted
+/// A sum with about twice as many digits as a double. Numbers that are added and later subtracted
 /// leave no rounding error. Source: Knuth, The art of computer programming, volume 2 (the error of
 /// a sum).
 class LongSum {

@@ -15,7 +15,7 @@ namespace vectors {
 namespace {
 
 // mutant: image-window
-constexpr double kReach = 8;  // standard deviations
+constexpr double kReach = 8;  // in standard deviations
 
 /// The masses that a normal distribution has in the pixels of an interval.
 class Masses {
@@ -45,8 +45,8 @@ class Masses {
   const double* data() const { return masses_.data() + first_; }
 
  private:
-  /// The pixel that contains x; 0 if x is below all pixels, and the number of pixels if x is above
-  /// all.
+  /// The pixel that contains x. It is 0 if x is below all pixels, and the number of pixels if x is
+  /// above all pixels.
   std::size_t pixel_at(double x) const {
     const auto count = static_cast<double>(masses_.size());
     const double part = (x - edges_.front()) / (edges_.back() - edges_.front());

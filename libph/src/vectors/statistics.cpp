@@ -29,7 +29,7 @@ double deviation_of(const std::vector<double>& numbers, double mean) {
   return largest * std::sqrt(sum.value() / static_cast<double>(numbers.size()));
 }
 
-/// Interpolates between two adjacent numbers, starting from the nearer one.
+/// Interpolates between two adjacent numbers, starting from the nearer number.
 double percentile_of(const std::vector<double>& sorted, double percent) {
   const double place = percent / 100 * static_cast<double>(sorted.size() - 1);
   const auto below = static_cast<std::size_t>(place);

@@ -18,15 +18,15 @@
 namespace ph {
 
 /// Looks for primitives of 2-cocycles gamma on the flag complex M of a link. A primitive is a
-/// 1-cochain psi with coboundary gamma. Also looks for *loops*: 1-cocycles that form a basis of
-/// H^1(M).
+/// 1-cochain psi with coboundary gamma. The class also looks for *loops*, which are 1-cocycles that
+/// form a basis of H^1(M).
 ///
 /// M grows vertex by vertex. A new vertex z is joined to its link in the part of M so far. On that
-/// link, psi(z,.) must be a potential: psi(z,y) - psi(z,x) = psi(x,y) - gamma(z,x,y). With each
-/// component of the link of z except one, a loop begins. If some searches have no potential there
-/// and one of them is for a loop, multiples of that loop are added to the others, and the loop is
-/// dropped. If none of them is for a loop, the gamma of each of them has no primitive. See
-/// docs/explanation/engines/edge-links-h3.md.
+/// link, psi(z,.) must be a potential: psi(z,y) - psi(z,x) = psi(x,y) - gamma(z,x,y). A loop begins
+/// with each component of the link of z except one. Some searches may have no potential on that
+/// link. If one of these searches is for a loop, multiples of that loop are added to the others,
+/// and the loop is dropped. If none of them is for a loop, the gamma of each of these searches has
+/// no primitive. See docs/explanation/engines/edge-links-h3.md.
 template <Field K>
 class LinkPrimitives {
  public:
@@ -46,10 +46,10 @@ class LinkPrimitives {
     std::uint32_t generator = kLoop;  ///< the class of gamma
     LinkTriples<K> gamma;             ///< zero for a loop
     LinkPairs<K> psi;
-    bool is_active = true;       ///< the search goes on, or the loop is still valid
-    bool is_obstructed = false;  ///< gamma has no primitive
-    bool is_found = false;       ///< psi is a primitive
-    // While a vertex z is added: psi(z,.), and the additional value that an edge requires.
+    bool is_active = true;       ///< true if the search continues, or if the loop is still valid
+    bool is_obstructed = false;  ///< true if gamma has no primitive
+    bool is_found = false;       ///< true if psi is a primitive
+    // The rows psi(z,.) and the additional value that an edge requires, while a vertex z is added.
     typename RowPool<K>::Id potential = 0, mismatch = 0;
     bool is_flat = true, is_mismatched = false;
   };
@@ -67,7 +67,7 @@ class LinkPrimitives {
         loop_vertices_(memory),
         asked_((graph.vertex_count() + 63) / 64 * Function::kUnitsPerBlock, 0, memory) {}
 
-  /// The searches so far: first the searches for classes, then the loops.
+  /// The searches so far. The searches for classes come first, then the loops.
   std::span<Search* const> all() const { return {used_.data(), used_.size()}; }
   void clear();
   /// Adds a search for a class or for a loop.
@@ -77,11 +77,11 @@ class LinkPrimitives {
 
   /// Finds all primitives and loops, in the order of a cover of the link.
   void search(const LinkCover& cover);
-  /// Looks for primitives of the obstructed classes in the order of the filtration, vertices
-  /// ascending, without the loops so far. At the first triangle z > y > w where some searches are
-  /// mismatched, calls `on_obstruction(search, z, y, w)` for the one with the largest generator.
-  /// Then calls `on_add(search, obstructed, scale)` for each of the others, which has no mismatch
-  /// after this addition.
+  /// Looks for primitives of the obstructed classes without the loops so far, in the order of the
+  /// filtration, with ascending vertices. At the first triangle z > y > w where some searches are
+  /// mismatched, calls `on_obstruction(search, z, y, w)` for the mismatched search with the largest
+  /// generator. Then calls `on_add(search, obstructed, scale)` for each of the other mismatched
+  /// searches. After this addition, these searches have no mismatch.
   template <class OnObstruction, class OnAdd>
   void search_in_order(OnObstruction&& on_obstruction, OnAdd&& on_add);
 
@@ -93,7 +93,7 @@ class LinkPrimitives {
   void end_vertex(Vertex z);
   void add_over(Vertex z, const Word* around);
   /// Extends psi(z,.) to a vertex y of the link of z. @param around the earlier neighbours of y,
-  /// which must lie in one part; see extend_over_parts. @return true if a search is mismatched.
+  /// which must be in one part (see extend_over_parts). @return true if a search is mismatched.
   bool extend_to(Vertex z, Vertex y, const Word* around);
   bool extend_over_parts(Vertex z, Vertex y);
   /// The last loop that is mismatched at w, or null. @param w the first vertex where any search is
@@ -108,8 +108,8 @@ class LinkPrimitives {
   template <class OnAdd>
   void correct_others(Search& by, Vertex w, OnAdd&& on_add);
   void settle_mismatches();
-  /// Begins a loop with each part of the link of z. Of the parts that belong to the same part of M,
-  /// one is left out.
+  /// Begins a loop with each part of the link of z. If several parts belong to the same part of M,
+  /// one of them is left out.
   void find_loops_over_parts();
   void begin_loops(Vertex z);
   /// Marks active searches as found.
@@ -123,7 +123,7 @@ class LinkPrimitives {
   std::vector<Search*> used_;
   LinkCover cover_;                   // for the link of a vertex
   LinkForest parts_, parts_of_star_;  // parts of the link, and parts of the link of a vertex in it
-  std::pmr::vector<Word> before_;     // the link of a vertex in the present complex
+  std::pmr::vector<Word> before_;     // the link of a vertex in the current complex
   std::pmr::vector<Word> loop_vertices_;  // one row per loop that begins
   std::pmr::vector<Unit> asked_;
 };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-// The functions of LinkPrimitives that search in the order of the filtration, for the classes that
-// die.
+// This file contains the functions of LinkPrimitives that search in the order of the filtration,
+// for the classes that die.
 #include "libph/src/rips/annotations/extend_potential.hpp"
 #include "libph/src/rips/volumes/link_primitives.hpp"
 

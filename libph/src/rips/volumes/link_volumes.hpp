@@ -19,10 +19,10 @@ namespace ph {
 /// Computes H3 of a Vietoris-Rips filtration edge by edge. This is the part of the sweep of edge
 /// links that is needed for H3.
 ///
-/// An edge e = (u,v) enters with its star, which is glued to the present complex along the
+/// An edge e = (u,v) enters with its star, which is glued to the current complex along the
 /// suspension of the flag complex M of its link. A class of H3 is therefore born with each class of
 /// H^1(M), a *loop*, that kills no class of H2. A class of H3 dies with a class of H_2(M). Each
-/// living class h is represented by a cocycle phi_h. To extend it to the new tetrahedra, a
+/// living class h is represented by a cocycle phi_h. To extend the cocycle to the new tetrahedra, a
 /// 1-cochain psi(x,y) = phi_h(u,v,x,y) of M is needed, whose coboundary is gamma(x,y,z) :=
 /// phi_h(u,x,y,z) - phi_h(v,x,y,z). If there is no such cochain, a class dies. See
 /// docs/explanation/engines/edge-links-h3.md.
@@ -47,8 +47,8 @@ class LinkVolumes {
         dead_(&context.memory),
         loops_(&context.memory) {}
 
-  /// Examines the edge whose link the graph holds: finds the loops of the link and the extensions
-  /// of the living classes. @param components the components of the link.
+  /// Examines the edge whose link is stored in the graph. Finds the loops of the link and the
+  /// extensions of the living classes. @param components the components of the link.
   void look(const FlagEdge& e, LinkComponents& components);
   /// A basis of H^1(M), valid until the next edge. The caller may add cocycles to its members.
   std::span<LinkPairs<K>* const> loops() const { return loops_; }
@@ -71,9 +71,9 @@ class LinkVolumes {
 
   /// Begins a search for each class whose gamma is not zero.
   void find_classes(const FlagEdge& e);
-  /// gamma += scale * phi_h(a,.,.,.), restricted to the link. @param terms the list of a.
+  /// Computes gamma += scale * phi_h(a,.,.,.), restricted to the link. @param terms the list of a.
   void add_terms(LinkTriples<K>& gamma, typename Cochain::Terms terms, Element scale);
-  /// phi_h(u,v,.,.) += psi.
+  /// Computes phi_h(u,v,.,.) += psi.
   void store(Generator h, const FlagEdge& e, const LinkPairs<K>& psi);
 
   LinkGraph& graph_;
@@ -81,7 +81,7 @@ class LinkVolumes {
   Observer& observer_;
   Cocycles cocycles_;
   std::pmr::vector<Tetrahedron> births_;  // birth of each generator; edge = kDead after its death
-  // Used while an edge is added:
+  // The following members are used while an edge is added.
   LinkCover cover_;
   LinkPrimitives<K> primitives_;
   std::pmr::vector<typename Cochain::PairValue> star_;

@@ -12,8 +12,8 @@
 
 namespace ph {
 
-/// A 3-cochain phi of a flag complex, an alternating function of four vertices, stored where it is
-/// not zero: each tetrahedron is in the lists of its four corners.
+/// A 3-cochain phi of a flag complex, which is an alternating function of four vertices. Only its
+/// non-zero values are stored. Each tetrahedron is in the lists of its four corners.
 template <Field K>
 class TetrahedronCochain {
  public:
@@ -54,18 +54,18 @@ class TetrahedronCochain {
   Terms terms(Vertex a, const Shared& shared) const { return lists_.terms(a, shared); }
 
   /// Adds scale * other. Calls `on_enter(a, list)` for vertices that get their first tetrahedron,
-  /// and `on_leave(a)` for vertices that lose their last one.
+  /// and `on_leave(a)` for vertices that lose their last tetrahedron.
   template <class OnEnter, class OnLeave>
   void add(TetrahedronCochain& other, Element scale, Shared& shared, OnEnter&& on_enter,
            OnLeave&& on_leave) {
     lists_.add(other.lists_, scale, shared, on_enter, on_leave);
   }
-  /// Adds each value of the star to phi(u,v,x,y). Each pair comes in both orders; the pairs of one
-  /// x are consecutive. These tetrahedra must have no values yet.
+  /// Adds each value of the star to phi(u,v,x,y). Each pair comes in both orders. The pairs with
+  /// the same x are consecutive. These tetrahedra must have no values yet.
   template <class OnEnter>
   void add_star(Vertex u, Vertex v, std::span<const PairValue> star, Shared& shared,
                 OnEnter&& on_enter);
-  /// Makes the cochain zero and gives its memory back. Calls `on_leave(a)` as `add` does.
+  /// Makes the cochain zero and frees its memory. Calls `on_leave(a)` in the same way as `add`.
   template <class OnLeave>
   void clear(Shared& shared, OnLeave&& on_leave) {
     for (const auto& at : lists_.lists()) on_leave(at.vertex);
@@ -81,7 +81,7 @@ template <class OnEnter>
 void TetrahedronCochain<K>::add_star(Vertex u, Vertex v, std::span<const PairValue> star,
                                      Shared& shared, OnEnter&& on_enter) {
   const K& field = shared.field;
-  // phi(a,b,c,d) = value, for the list of a
+  // The term phi(a,b,c,d) = value, for the list of a.
   const auto term = [&](Vertex b, Vertex c, Vertex d, Element value) {
     const bool is_odd = ((b > c) != (b > d)) != (c > d);
     const Vertex low = std::min({b, c, d}), high = std::max({b, c, d});

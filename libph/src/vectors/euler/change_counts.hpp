@@ -17,7 +17,7 @@
 // per thread. A Part takes rows of keys and changes, and adds them to the whole in add_to_all.
 namespace ph::vectors {
 
-/// Calls use(i) for all voxels with a change that is not zero, and possibly for others.
+/// Calls use(i) for all voxels with a non-zero change, and possibly for other voxels.
 template <class Sum, class Use>
 void for_each_change(const Sum* changes, std::size_t count, Use&& use) {
   constexpr std::size_t together = sizeof(std::uint64_t) / sizeof(Sum);
@@ -52,12 +52,12 @@ class CurveBuilder {
   StepFunction curve_;
 };
 
-/// Collects changes at integer keys, with one sum per possible key.
+/// Collects changes at integer keys. There is one sum for each possible key.
 template <class T>
 class Histogram {
   static constexpr std::size_t kBins = std::size_t{1} << 8 * sizeof(T);
-  // Several copies, because consecutive additions to the same sum would have to wait for each
-  // other.
+  // There are several copies, because consecutive additions to the same sum would have to wait for
+  // each other.
   static constexpr std::size_t kCopies = sizeof(T) == 1 ? 4 : 1;
   static std::size_t bin_of(T key) {
     return static_cast<std::size_t>(key - std::numeric_limits<T>::min());
@@ -165,8 +165,8 @@ class ChangeList {
   }
 
  private:
-  /// Joins all parts, freeing each as soon as it is copied. Their order, which depends on threads,
-  /// does not matter: equal keys are summed.
+  /// Joins all parts, and frees each part as soon as it is copied. The order of the parts depends
+  /// on threads. It does not matter, because changes with equal keys are summed.
   RawVector<Change> joined() {
     std::size_t count = 0;
     for (const auto& part : parts_) count += part.size();

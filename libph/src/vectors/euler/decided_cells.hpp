@@ -13,16 +13,17 @@ namespace ph::vectors {
 
 /// The change of the Euler characteristic at each voxel of a row.
 ///
-/// V-construction: a voxel decides the values of the cells whose last vertex it is. Such a cell
-/// lies in one of 3^d - 1 directions, -1, 0 or 1 along each axis; its other vertices lie in the
-/// directions that have some of these components set to 0. The voxel therefore decides a cell if
-/// the neighbour in the cell's direction precedes the voxel and if the voxel decides the facets of
-/// the cell that contain it. Of equal vertices, the one in the larger direction counts as last.
-/// Each cell is thus decided once, even if an axis is periodic and has only one or two voxels.
+/// V-construction: a voxel decides the values of the cells whose last vertex it is. Each of these
+/// cells is in one of 3^d - 1 directions, which are -1, 0 or 1 along each axis. The other vertices
+/// of the cell are in the directions that have some of these components set to 0. The voxel
+/// therefore decides a cell if the neighbour in the cell's direction precedes the voxel and if the
+/// voxel decides the facets of the cell that contain it. If vertices are equal, the vertex in the
+/// larger direction counts as last. Each cell is therefore decided once, even if an axis is
+/// periodic and has only one or two voxels.
 ///
-/// T-construction: the same for the faces between top cubes. A voxel decides the face in a
-/// direction if all other cubes around the face come later or do not exist. The dimension of the
-/// face is d minus the number of non-zero components of the direction.
+/// T-construction: the same rule applies to the faces between top cubes. A voxel decides the face
+/// in a direction if all other cubes around the face come later or do not exist. The dimension of
+/// the face is d minus the number of non-zero components of the direction.
 class DecidedCells {
  public:
   static constexpr std::size_t kBlock = 512;
@@ -41,9 +42,9 @@ class DecidedCells {
       Direction& direction = directions_[number];
       std::size_t steps = 0, power = 1;
       for (std::size_t rest = number; rest > 0; rest /= 3, power *= 3) {
-        const std::size_t digit = rest % 3;  // 0: no step, 1: down, 2: up
+        const std::size_t digit = rest % 3;  // 0 means no step, 1 down, 2 up
         if (digit == 0) continue;
-        direction.is_down = digit == 1;  // set by the first axis along which it leads
+        direction.is_down = digit == 1;  // set by the first axis along which the direction leads
         direction.facets.push_back(number - digit * power);
         ++steps;
       }
@@ -53,8 +54,8 @@ class DecidedCells {
     std::fill_n(masks_.data(), kBlock, Mask{0xFF});  // an unused direction imposes no condition
   }
 
-  /// @param rows 3^(d-1) rows of keys by direction, first the voxels' own row; null for missing
-  ///        rows.
+  /// @param rows 3^(d-1) rows of keys, indexed by direction. The first row is the row of the voxels
+  /// themselves. Missing rows are null.
   /// @param begin, end a part of the row, at most kBlock long.
   template <class T, class Sum>
   void count(const T* const* rows, std::size_t begin, std::size_t end, Sum* sums) {
@@ -94,7 +95,8 @@ class DecidedCells {
 
   std::size_t axes_, length_;
   bool is_circle_;
-  Mask outside_;  // a neighbour outside precedes nothing (V), or comes after all (T)
+  // A neighbour outside precedes nothing (V), or comes after all voxels (T).
+  Mask outside_;
   bool has_own_;  // true if the cell of the zero direction counts 1, otherwise it counts -1
   std::vector<Direction> directions_;
   RawVector<Mask> masks_;

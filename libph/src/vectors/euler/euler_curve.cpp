@@ -67,7 +67,7 @@ class RowNeighbours {
           : is_circle     ? 0
                           : kNone,
       };
-      // Goes down, so that entries are read before they are overwritten.
+      // The loop runs downwards, so that entries are read before they are overwritten.
       for (std::size_t i = 3 * count; i-- > 0;) {
         const std::size_t before = steps_[i / 3], here = by_digit[i % 3];
         steps_[i] = before == kNone || here == kNone ? kNone : before * extent + here;
@@ -81,8 +81,8 @@ class RowNeighbours {
   std::vector<std::size_t> steps_;
 };
 
-/// The number of layers that a thread takes at a time: enough to outweigh the cost of reading the
-/// two adjacent layers and of adding up the counts.
+/// The number of layers that a thread takes at a time. It is large enough to outweigh the cost of
+/// reading the two adjacent layers and of adding up the counts.
 std::size_t layers_at_a_time(const Layered& image, const RunContext& context) {
   constexpr std::size_t voxels = 1 << 20, at_least = 16;
   const std::size_t layers = image.layers(), threads = thread_count(context);
@@ -130,7 +130,7 @@ void count_all(const Layered& image, Counts& counts, const RunContext& context) 
                  });
 }
 
-/// True if there are enough voxels for one sum per value.
+/// True if there are enough voxels to have one sum for each value.
 template <class T>
 bool suits_histogram(const CubicalImage& image) {
   if constexpr (std::is_integral_v<T>)

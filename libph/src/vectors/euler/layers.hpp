@@ -11,9 +11,9 @@
 
 namespace ph::vectors {
 
-/// An image as layers along its first axis, which consist of rows along its last axis. It has at
-/// least two axes: axes of one voxel, which do not change the Euler characteristic, are added if
-/// necessary.
+/// An image as layers along its first axis, which consist of rows along its last axis. The image
+/// has at least two axes. If necessary, axes of one voxel are added, which do not change the Euler
+/// characteristic.
 struct Layered {
   CubicalImage image;
   std::vector<std::size_t> extents;
@@ -35,7 +35,7 @@ struct Layered {
   std::size_t rows_each() const { return voxels_each() / row_length(); }
 };
 
-/// The number by which voxels are compared: it determines when a voxel enters, and has the type of
+/// The number by which voxels are compared. It determines when a voxel enters, and has the type of
 /// the image.
 template <class T>
 T entry_key(T voxel, bool superlevel) {
@@ -47,7 +47,7 @@ T entry_key(T voxel, bool superlevel) {
   }
 }
 
-/// The value of a voxel that has this key.
+/// The value of a voxel that has the given key.
 template <class T>
 double entry_value(T key, bool superlevel) {
   if constexpr (std::floating_point<T>)
@@ -77,8 +77,8 @@ class ThreeLayers {
     std::rotate(std::begin(order_), std::begin(order_) + 1, std::end(order_));
     load(wrapped(middle_ + 1), order_[2]);
   }
-  /// The layer at an offset from the middle layer, or null if there is none. @param offset -1, 0 or
-  /// 1.
+  /// The layer at an offset from the middle layer. Returns null if there is no such layer. @param
+  /// offset -1, 0 or 1.
   const T* layer(int offset) const {
     const int which = order_[offset + 1];
     return present_[which] ? layers_[which].data() + 1 : nullptr;
@@ -90,8 +90,9 @@ class ThreeLayers {
 
   std::size_t wrapped(std::size_t layer) const {
     if (layer < of_.layers()) return layer;
-    if (!of_.periodic.front()) return kNone;       // mutant: euler-first-axis
-    return layer == kNone ? of_.layers() - 1 : 0;  // before the first layer, or after the last
+    if (!of_.periodic.front()) return kNone;  // mutant: euler-first-axis
+    // Before the first layer, or after the last layer.
+    return layer == kNone ? of_.layers() - 1 : 0;
   }
   void load(std::size_t layer, int to) {
     present_[to] = layer != kNone;
