@@ -13,8 +13,8 @@
 namespace ph::segment {
 namespace {
 
-/// For each pair of segments, the value at which they first meet. Two segments may have many edges
-/// between them; only the first counts.
+/// For each pair of segments, the value at which they first meet. If two segments have many edges
+/// between them, only the first edge counts.
 Contacts contacts_of(const SceneTree& scene, const Surface& surface, const CutOptions& options,
                      const SceneCut& cut, const RunContext& context) {
   Contacts contacts(&context.memory);
@@ -48,8 +48,8 @@ Contacts contacts_of(const SceneTree& scene, const Surface& surface, const CutOp
 std::vector<Index> components_of(const SceneTree& scene, const VoxelGrid& grid,
                                  const Surface& surface, const CutOptions& options,
                                  const RunContext& context) {
-  // Section V.C: the sets joined to 0-simplices of infinite persistence. If the cut is at the
-  // largest distance of the complex, every merge is performed.
+  // Section V.C of the paper: the sets joined to 0-simplices of infinite persistence. If the cut is
+  // at the largest distance of the complex, every merge is performed.
   if (scene.method == Method::paper) return scene.merge_tree.components(options.value);
   std::vector<Index> component_of = scene.merge_tree.basins(options.value, options.min_part);
   if (scene.method == Method::supervoxels) return component_of;

@@ -15,7 +15,7 @@ std::string camera_mark(std::string_view calibration) {
   return mark(Setting::camera, printable(calibration));
 }
 
-/// The camera for images of this size; adds a note if its calibration has another size.
+/// Returns the camera for images of this size. Adds a note if its calibration has another size.
 Camera scaled(const Camera& camera, std::string_view calibration, Index width, Index height,
               const Note& note) {
   Camera result;
@@ -64,7 +64,7 @@ Cloud cloud_of_depth(const DepthImage& image, const std::optional<Raster>& colou
                      std::optional<double> scale, const Note& note) {
   const Index rows = image.depth.extents[0], columns = image.depth.extents[1];
   const Camera fitting = scaled(camera, calibration, columns, rows, note);
-  // Images of floats are in metres, whatever unit the camera has.
+  // Images of floats are in metres, regardless of the camera's unit.
   if (!scale && camera.depth_scale > 0 && image.scale != 1) {
     scale = camera.depth_scale;
     note(fmt::format("{}: its depth_scale is used: {:.6g} units per metre",

@@ -27,18 +27,19 @@ void StageClock::finish(std::string_view name, Index points) {
 
 namespace {
 
-/// Lengths in voxels. A neighbourhood is large enough to show how the surface bends, and small
-/// enough not to reach across a thin object.
+/// These lengths are in voxels. A neighbourhood is large enough to show how the surface bends, and
+/// small enough not to reach across a thin object.
 constexpr double kNeighbourhood = 3, kOfNormals = 2.4, kSquareOfBase = 0.6;
-constexpr double kAdjacent = 1.79;  // a little more than sqrt(3): voxels whose corners touch
+// A little more than sqrt(3), so that voxels whose corners touch are adjacent.
+constexpr double kAdjacent = 1.79;
 
 /// True if the voxels are so small that the points of a surface leave gaps between them. A voxel
 /// then has fewer adjacent voxels on average than in a plane that is sampled as coarsely as the
-/// grid. A thin object, such as a pen or a cable, has few adjacent voxels as well. To tell these
-/// two cases apart, the voxels of half the edge are counted: if there are not many more of them,
-/// most voxels have only one point. Duplicate points do not change this number. Halving the edge
-/// doubles the voxels of a line, quadruples those of a plane, and does not change the number of
-/// single points; random points with too few adjacent voxels reach at most 1.45 times as many.
+/// grid. A thin object, such as a pen or a cable, also has few adjacent voxels. To tell these two
+/// cases apart, the voxels of half the edge are counted. If there are not many more of them, most
+/// voxels have only one point. Duplicate points do not change this number. Halving the edge doubles
+/// the voxels of a line, quadruples the voxels of a plane, and does not change the number of single
+/// points. Random points with too few adjacent voxels reach at most 1.45 times as many voxels.
 bool is_too_fine(const Scene& scene, Index voxels, const VoxelPairs& pairs, double voxel) {
   constexpr double fewest = 6, of_half = 1.6;
   const auto adjacent = std::ranges::count_if(
@@ -67,8 +68,8 @@ double range_of(const Points& centroids, std::size_t v, const Vec3& viewpoint) {
   return std::hypot(row[0] - viewpoint[0], row[1] - viewpoint[1], row[2] - viewpoint[2]);
 }
 
-/// Increases the concavity where the surface is seen at a steep slant. Such points may not lie on a
-/// surface at all, but on a sheet of points between an object and its background.
+/// Increases the concavity where the surface is seen at a steep slant. The points there may not be
+/// on a surface, but on a sheet of points between an object and its background.
 void add_grazing(const Points& centroids, const Vec3& viewpoint, Relief& relief) {
   constexpr double largest_cosine = 0.3, weight = 0.3;
   for (std::size_t v = 0; v < relief.concavity.size(); ++v) {
@@ -81,11 +82,11 @@ void add_grazing(const Points& centroids, const Vec3& viewpoint, Relief& relief)
   }
 }
 
-/// Measures the noise of the concavity: applies the same steps to free patches of the supporting
-/// plane, where any concavity is noise. Empty without a plane.
+/// Measures the noise of the concavity. The function applies the same steps to free patches of the
+/// supporting plane, where any concavity is noise. Returns an empty result if there is no plane.
 ConcavityNoise noise_of(const Scene& scene, double voxel, const RunContext& context) {
-  constexpr double side = 12;  // voxels
-  // A voxel with fewer near voxels is not used: the surface around it is not whole.
+  constexpr double side = 12;  // the side in voxels
+  // A voxel with fewer near voxels is not used, because the surface around it is incomplete.
   constexpr int fewest_near = 16;
   if (!scene.plane) return {};
   const std::vector<Index> points =
@@ -118,7 +119,8 @@ double adjacent_radius(double voxel) { return kAdjacent * voxel; }
 VoxelFiltration surface_filtration(const Scene& scene, const SegmentOptions& options,
                                    const RunContext& context, StageClock& clock) {
   constexpr double coarser = 1.5;
-  constexpr int most_times = 4;  // the edge grows to about five times its first length at most
+  // The edge grows to at most about five times its first length.
+  constexpr int most_times = 4;
   double voxel = options.voxel_size();
   std::vector<Index> points;
   VoxelGrid grid;
@@ -171,10 +173,12 @@ VoxelFiltration surface_filtration(const Scene& scene, const SegmentOptions& opt
 
 VoxelFiltration rips_filtration(const Scene& scene, const SegmentOptions& options,
                                 const RunContext& context, StageClock& clock) {
-  // Assumption 1: "points in the space are approximated (downsampled) with their centroid"
+  // Assumption 1 of the paper: "points in the space are approximated (downsampled) with their
+  // centroid"
   VoxelGrid grid = voxel_grid(scene.cloud, scene.points.beyond, options.voxel_size());
   clock.finish("voxel grid", grid.centroids.rows());
-  // Alg. 1 (V.A) and the filtration of V.B: the 1-skeleton of the Vietoris-Rips complex
+  // Alg. 1 (V.A) of the paper and the filtration of V.B: the 1-skeleton of the Vietoris-Rips
+  // complex
   FilteredGraph rips = rips_graph(grid.centroids, options.distance, options.steps, context);
   clock.finish("complex", rips.size());
   return {options.voxel_size(), std::move(grid), scene.points.beyond, std::move(rips), {}, {}};

@@ -14,8 +14,8 @@
 
 namespace ph::segment {
 
-/// Fills the stage table and, between stages, reports progress and obeys a stop request. A stage
-/// that is repeated keeps its row: its times are added, and its last count is kept.
+/// Fills the stage table. Between stages, it reports progress and obeys a stop request. A stage
+/// that is repeated keeps its row: its times are added up, and its last count is kept.
 class StageClock {
  public:
   StageClock(const RunContext& context, std::vector<Stage>& stages)
@@ -28,8 +28,8 @@ class StageClock {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-/// A cloud and its supporting plane. `points` contains the points in range, divided by the plane;
-/// without a plane, all of them are in `points.beyond`.
+/// A cloud and its supporting plane. `points` contains the points in range, divided by the plane.
+/// Without a plane, all points are in `points.beyond`.
 struct Scene {
   CloudView cloud;
   std::optional<Plane> plane;
@@ -40,19 +40,19 @@ struct Scene {
   std::vector<Index> lower_strip;     ///< points in the strip of the lower plane
 };
 
-/// The graph that a method makes of a scene; `grid` and `points` belong together.
+/// The graph that a method makes of a scene. The vertices of `grid` belong to `points`.
 struct VoxelFiltration {
-  double voxel;  ///< edge of a voxel of the grid, metres
+  double voxel;  ///< the edge of a voxel of the grid, in metres
   VoxelGrid grid;
   std::vector<Index> points;
   FilteredGraph graph;         ///< its vertices are the voxels
   Surface surface;             ///< empty if the method does not need it
-  std::vector<NoiseAt> noise;  ///< method surface: see Segmentation
+  std::vector<NoiseAt> noise;  ///< used by method surface, see Segmentation
 };
 
-/// For method surface: the pairs of voxels that are in each other's neighbourhood, see Surface.
+/// For method surface, the pairs of voxels that are in each other's neighbourhood (see Surface).
 VoxelPairs near_voxels(const VoxelGrid& grid, double voxel, const RunContext& context);
-/// For method surface: the distance, in metres, below which an edge of the graph joins two voxels.
+/// For method surface, the distance in metres below which an edge of the graph joins two voxels.
 double adjacent_radius(double voxel);
 
 /// The filtration of the methods surface and supervoxels. A voxel enters at the concavity of the
@@ -64,8 +64,8 @@ VoxelFiltration surface_filtration(const Scene& scene, const SegmentOptions& opt
 VoxelFiltration rips_filtration(const Scene& scene, const SegmentOptions& options,
                                 const RunContext& context, StageClock& clock);
 
-/// The components that a cut leaves, including small ones. Reads the method, the voxel and the tree
-/// from `scene`.
+/// The components that a cut leaves, including small components. The method, the voxel and the tree
+/// are read from `scene`.
 /// @param grid its centroids are the vertices. @param surface empty in method paper.
 /// @return for each vertex, one of the vertices of its component.
 std::vector<Index> components_of(const SceneTree& scene, const VoxelGrid& grid,

@@ -13,7 +13,7 @@
 namespace ph::segment {
 namespace {
 
-/// The distances of the nearest and the farthest point, metres; empty without points.
+/// The distances of the nearest and the farthest point, in metres. Empty if there are no points.
 std::optional<std::array<double, 2>> distances(const Cloud& cloud, const Vec3& viewpoint) {
   double nearest = kInfinity, farthest = 0;
   const std::vector<float> xyz = cloud.xyz();
@@ -28,10 +28,11 @@ std::optional<std::array<double, 2>> distances(const Cloud& cloud, const Vec3& v
   return std::array{nearest, farthest};
 }
 
-/// For results without segments: a hint that the lengths may not be metres.
+/// For results without segments, a hint that the lengths may not be in metres.
 std::string about_units(const SegmentOptions& o, bool is_depth, const Cloud& cloud,
                         const Segmentation& s) {
-  constexpr double room = 50, crumb = 0.02;  // metres: no table top is so far away, or so small
+  // In metres; no table top is so far away or so small.
+  constexpr double room = 50, crumb = 0.02;
   const auto found = distances(cloud, s.tree.viewpoint);
   if (!found)
     return fmt::format("no point within {} m of the viewpoint: all are holes", o.max_range);
@@ -55,12 +56,12 @@ std::string about_units(const SegmentOptions& o, bool is_depth, const Cloud& clo
 
 /// Warns of coordinates so large that the distances between points are lost.
 std::string about_precision(const SegmentOptions& o, const Cloud& cloud, const Segmentation& s) {
-  constexpr double much = 0.01;  // share of the edge of a voxel
+  constexpr double much = 0.01;  // the share of the edge of a voxel
   float largest = 0;
   const auto take = [&](double x) {
     if (std::isfinite(x)) largest = std::max(largest, static_cast<float>(std::abs(x)));
   };
-  // If segments were found, their boxes give the largest coordinates without another pass over all
+  // If segments were found, their boxes give the largest coordinates without a second pass over all
   // points.
   for (const Segment& segment : s.cut.segments)
     for (const auto& end : {segment.box.min, segment.box.max}) std::ranges::for_each(end, take);
@@ -73,11 +74,11 @@ std::string about_precision(const SegmentOptions& o, const Cloud& cloud, const S
       largest, step);
 }
 
-/// Warns if no pinhole camera would have these numbers: if its field of view is only a few degrees
-/// or nearly a half circle, or if its axis does not meet the image.
+/// Warns if no pinhole camera would have these numbers. This is the case if its field of view is
+/// only a few degrees or nearly a half circle, or if its axis does not meet the image.
 std::string about_camera(const DepthSource& depth, const Cloud& cloud) {
   const Intrinsics camera = depth.camera.scaled_to(cloud.width, cloud.height).intrinsics;
-  constexpr double least = 5, most = 160;  // degrees
+  constexpr double least = 5, most = 160;  // in degrees
   const auto view = [](Index pixels, double focal_length) {
     return 360 / std::numbers::pi * std::atan(static_cast<double>(pixels) / 2 / focal_length);
   };
@@ -96,7 +97,7 @@ std::string about_camera(const DepthSource& depth, const Cloud& cloud) {
 /// Warns of a plane that no sensor at the viewpoint could see like this.
 std::string about_plane(const Segmentation& s, const std::string& viewpoint) {
   if (!s.tree.plane) return {};
-  constexpr double too_low = 0.03;  // metres
+  constexpr double too_low = 0.03;  // in metres
   const auto& [x, y, z] = s.tree.viewpoint;
   if (s.tree.plane->signed_distance(x, y, z) < too_low) {
     return fmt::format(
@@ -104,8 +105,8 @@ std::string about_plane(const Segmentation& s, const std::string& viewpoint) {
         "another frame? see {}",
         viewpoint, mark(Setting::viewpoint));
   }
-  // If the points are in the frame of their sensor, up to 0.4 of them are behind the plane (past
-  // the edge of a table), and the plane should hide up to 0.03 of them.
+  // If the points are in the frame of their sensor, at most 0.4 of them are behind the plane (past
+  // the edge of a table), and the plane should hide at most 0.03 of them.
   constexpr double much_hidden = 0.1, nearly_all = 0.9, some_hidden = 0.01;
   const auto [behind, hidden] = s.plane_sight;
   if (hidden < some_hidden || (hidden < much_hidden && behind < nearly_all)) return {};
@@ -119,7 +120,7 @@ std::string about_plane(const Segmentation& s, const std::string& viewpoint) {
 std::string about_viewpoint(const SegmentOptions& o, const Segmentation& s) {
   const auto text = [](const Vec3& p) {
     constexpr double half = 0.0005;
-    const auto shown = [](double x) { return std::abs(x) < half ? 0.0 : x; };  // no -0.000
+    const auto shown = [](double x) { return std::abs(x) < half ? 0.0 : x; };  // this avoids -0.000
     return fmt::format("{:.3f},{:.3f},{:.3f}", shown(p[0]), shown(p[1]), shown(p[2]));
   };
   if (!s.rays_meet_at) return about_plane(s, text(s.tree.viewpoint));

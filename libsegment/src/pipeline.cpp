@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // W. J. Beksi and N. Papanikolopoulos, 3D Point Cloud Segmentation Using Topological Persistence,
-// ICRA 2016. Section and algorithm numbers here and in methods.cpp are those of the paper.
+// ICRA 2016. The numbers of sections and algorithms here and in methods.cpp refer to this paper.
 #include <algorithm>
 #include <iterator>
 #include <utility>
@@ -20,17 +20,17 @@
 namespace ph::segment {
 namespace {
 
-/// The most memory that all stages together need for the points. Each point needs its number in
-/// four lists of remaining points; its voxel; its number, its vertex and its coordinates in the
-/// tree; a copy of the coordinates, sorted by segment; its label; and its surfaces.
+/// The most memory that all stages together need for the points. The data of each point are its
+/// number in four lists of remaining points; its voxel; its number, its vertex and its coordinates
+/// in the tree; a copy of the coordinates, sorted by segment; its label; and its surfaces.
 std::size_t bytes_for_points(const CloudView& cloud) {
   constexpr std::size_t bytes_per_point = 5 * 8 + 4 + 4 + 12 + 12 + 4 + 2;
   return cloud.size() * bytes_per_point;
 }
 
 /// The most memory that the voxels need, without the pairs and the graph, whose memory is counted
-/// separately. Each voxel has a place, a normal and a number of points, both here and in the tree;
-/// the merge tree and the barcode need memory as well.
+/// separately. Each voxel has a place, a normal and a number of points, both here and in the tree.
+/// The merge tree and the barcode also need memory.
 std::size_t bytes_for_voxels(const VoxelGrid& grid) {
   constexpr std::size_t bytes_per_voxel = 2 * 80 + 80 + 160;
   return grid.cells.size() * bytes_per_voxel;
@@ -42,11 +42,13 @@ void mark(const std::vector<Index>& points, std::uint8_t number, std::vector<std
   for (const Index i : points) marks[static_cast<std::size_t>(i)] = number;
 }
 
-/// Removes a support below the table, such as the floor, but keeps the objects on it, which count
-/// like objects on the table. Does nothing if many points lie where the table should hide them: the
-/// viewpoint is then wrong, and what seems to lie below the table may lie above it.
+/// Removes a support below the table, such as the floor, but keeps the objects on it. These objects
+/// count like objects on the table. Does nothing if many points are where the table should hide
+/// them. In this case, the viewpoint is wrong, and what seems to be below the table may be above
+/// it.
 void clear_lower_support(const std::vector<Index>& in_range, Scene& scene, Segmentation& result) {
-  constexpr double much_hidden = 0.1;  // share; in scenes in their sensor's frame, it is up to 0.03
+  // A share; in scenes in their sensor's frame, it is at most 0.03.
+  constexpr double much_hidden = 0.1;
   if (result.plane_sight.hidden >= much_hidden) return;
   const CloudView& cloud = scene.cloud;
   scene.lower = find_lower_support(cloud, in_range, *scene.plane, scene.margin.noise);
@@ -60,14 +62,14 @@ void clear_lower_support(const std::vector<Index>& in_range, Scene& scene, Segme
   result.tree.surfaces.push_back({Role::support, scene.lower->plane});
 }
 
-/// The points in range that lie above the supporting plane; the plane also goes into the result.
+/// The points in range that are above the supporting plane. The plane is also stored in the result.
 Scene clear_scene(const CloudView& cloud, const SegmentOptions& options, StageClock& clock,
                   Segmentation& result) {
   Scene scene;
   scene.cloud = cloud;
   scene.margin = {options.plane_margin()};
 
-  // Section VI: "we remove outlying points (background clutter) that are beyond range"
+  // Section VI of the paper: "we remove outlying points (background clutter) that are beyond range"
   std::vector<Index> in_range = range_filter(cloud, options.max_range, options.crop);
   clock.finish("range filter", count(in_range));
 
@@ -76,11 +78,11 @@ Scene clear_scene(const CloudView& cloud, const SegmentOptions& options, StageCl
     scene.points.beyond = std::move(in_range);
     return scene;
   }
-  // Section VI: "we find all points that correspond to a planar model and remove them"
+  // Section VI of the paper: "we find all points that correspond to a planar model and remove them"
   PlaneSearch search = find_plane(cloud, in_range, scene.margin.distance, options.plane_guess);
   if (options.method != Method::paper && options.plane_noise > 0) {
     constexpr double deviations = 4;
-    // The height of the noise at the range of the plane.
+    // This is the height of the noise at the range of the plane.
     const double noise = deviations * search.noise * search.range * search.range;
     if (noise > 2 * scene.margin.distance)
       search = find_plane(cloud, in_range, noise, options.plane_guess);
@@ -106,7 +108,8 @@ Scene clear_scene(const CloudView& cloud, const SegmentOptions& options, StageCl
 void keep_points(const CloudView& cloud, const VoxelFiltration& filtration, SceneTree& scene) {
   const std::vector<Index>& points = filtration.points;
   const std::vector<std::uint32_t>& voxel_of = filtration.grid.voxel_of;
-  // The points beyond the plane come first, ascending; the points that were won back follow.
+  // The points beyond the plane come first, in ascending order. The points that were won back
+  // follow.
   const auto beyond =
       static_cast<std::size_t>(std::ranges::is_sorted_until(points) - points.begin());
   std::vector<std::pair<Index, std::uint32_t>> won_back;
@@ -130,7 +133,8 @@ void keep_points(const CloudView& cloud, const VoxelFiltration& filtration, Scen
     std::copy_n(cloud.point(static_cast<std::size_t>(scene.points[k])), 3, &scene.xyz[3 * k]);
 }
 
-/// Stores the data that a cut needs besides the tree and the points. `scene.plane` is set already.
+/// Stores the data that a cut needs in addition to the tree and the points. `scene.plane` is set
+/// already.
 void keep_scene(const CloudView& cloud, const VoxelFiltration& filtration,
                 const SegmentOptions& options, SceneTree& scene) {
   scene.method = options.method;
@@ -171,7 +175,8 @@ Segmentation segment(const CloudView& input, const SegmentOptions& options,
   result.tree.noise = filtration.noise;
   const MemoryClaim of_voxels(context.memory, bytes_for_voxels(filtration.grid));
 
-  // Alg. 2: the death times of the zero-dimensional cycles, by the disjoint sets of V.C
+  // Alg. 2 of the paper: the death times of the zero-dimensional cycles, by the disjoint sets of
+  // V.C
   result.tree.merge_tree = merge_tree(filtration.graph, context);
   result.barcode = barcode_of(result.tree.merge_tree);
   clock.finish("persistence", filtration.graph.size());
@@ -193,7 +198,8 @@ Segmentation segment(const CloudView& input, const SegmentOptions& options,
   for (const Segment& s : result.cut.segments) in_segments += s.voxels;
   clock.finish("components", in_segments);
 
-  // Section V.B defines persistence by the boundary matrix: the fast path must agree with it.
+  // Section V.B of the paper defines persistence by the boundary matrix. The fast path must agree
+  // with it.
   if (options.check) {
     result.difference = cross_check(filtration.graph, result.barcode, context);
     result.checked = true;

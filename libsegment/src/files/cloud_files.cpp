@@ -15,7 +15,8 @@
 namespace ph::segment {
 namespace {
 
-/// A free name: label_in or, in a cloud that was labelled before, label_in_2, label_in_3, …
+/// Returns an unused name. This is label_in or, in a cloud that was labelled before, label_in_2,
+/// label_in_3, …
 std::string free_name(const Cloud& cloud) {
   std::string name = "label_in";
   for (int i = 2; cloud.find(name); ++i) name = fmt::format("label_in_{}", i);

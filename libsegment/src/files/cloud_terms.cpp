@@ -144,7 +144,7 @@ class Terms {
     }
   }
 
-  /// Opaque unless the cloud has an alpha channel.
+  /// The alpha value is opaque unless the cloud has an alpha channel.
   std::uint32_t alpha(std::size_t point) const {
     if (alpha_ == nullptr) return 0xFF;
     return static_cast<std::uint32_t>(cloud_.data[point * cloud_.stride + alpha_->offset]);
@@ -154,8 +154,8 @@ class Terms {
   const Cloud& cloud_;
   bool is_narrowed_ = false;                           // true if doubles become float32
   std::optional<std::vector<std::uint32_t>> colours_;  // colours to be packed
-  const CloudField* alpha_ = nullptr;                  // the alpha channel that goes with them
-  bool has_colours_ = false;                           // true if fields_ contains colours
+  const CloudField* alpha_ = nullptr;  // the alpha channel that belongs to these colours
+  bool has_colours_ = false;           // true if fields_ contains colours
   std::vector<CloudField> fields_;
   std::vector<const CloudField*> sources_;  // the source of each field; nullptr if it is colours_
   std::size_t stride_ = 0;

@@ -17,8 +17,8 @@ struct Component {
   Index first = 0;  // its first vertex in the order of the grid
   Index points = 0;
   Index voxels = 0;
-  Index in_grid = 0;  // number of points that its centroid averages
-  Vec3 sum{};         // sum of these points
+  Index in_grid = 0;  // the number of points that the centroid averages
+  Vec3 sum{};         // the sum of these points
 };
 
 /// Components are sorted by decreasing number of points, then by decreasing number of voxels, then

@@ -17,9 +17,9 @@
 namespace ph::segment {
 namespace {
 
-/// A segment and an object that share places.
+/// A segment and an object that share places in space.
 struct Overlap {
-  double share;  // share of their union
+  double share;  // the share of their union
   std::size_t segment, object;
 };
 
@@ -29,7 +29,7 @@ std::size_t things_in(const SceneTree& scene, const SceneCut& cut) {
   return cut.segments.size() + scene.surfaces.size() - static_cast<std::size_t>(scene.removed);
 }
 
-/// The number of the thing (a segment or a surface) at point i; empty if there is none.
+/// The number of the thing (a segment or a surface) at point i. Empty if there is no thing.
 std::optional<std::uint32_t> thing_at(const SceneTree& scene, const SceneCut& cut, std::size_t i) {
   if (cut.labels[i] != 0) return cut.labels[i] - 1;
   const std::uint32_t surface = cut.surface_labels[i];
@@ -50,7 +50,7 @@ LabelTracker::LabelTracker(int patience, double cell) : patience_(patience), cel
 }
 
 std::vector<std::uint32_t> LabelTracker::update(std::span<const std::uint32_t> labels) {
-  // The labels that occur, ascending; a label may be any number.
+  // The labels that occur, in ascending order. A label may be any number.
   std::vector<std::uint32_t> known(labels.begin(), labels.end());
   std::ranges::sort(known);
   const auto same = std::ranges::unique(known);
@@ -97,8 +97,9 @@ LabelTracker::Object& LabelTracker::object(std::uint32_t number) {
   return *std::ranges::lower_bound(objects_, number, {}, &Object::number);
 }
 
-/// Updates the role of each thing and what it stands on. A new thing takes them from its first
-/// frame; later, a change takes effect once several frames in a row agree on it.
+/// Updates the role of each thing and what the thing stands on. A new thing takes its role and its
+/// support from its first frame. Later, a change takes effect after several frames in a row agree
+/// on it.
 void LabelTracker::settle(const SceneTree& scene, const SceneCut& cut,
                           const std::vector<std::uint32_t>& numbers) {
   constexpr int frames = 3;  // mutant: role-frames
@@ -128,7 +129,8 @@ void LabelTracker::settle(const SceneTree& scene, const SceneCut& cut,
   standings_.clear();
   for (const Segment& segment : cut.segments) {
     Standing standing = object(numbers[standings_.size()]).is;
-    // Its support may be absent from this frame; what this frame alone says is then used.
+    // The support may be absent from this frame. In this case, only the result of this frame is
+    // used.
     if (standing.on.segment != 0) {
       const auto lower = std::ranges::find(numbers, standing.on.segment) - numbers.begin();
       if (lower < std::ssize(cut.segments))
@@ -164,14 +166,14 @@ std::vector<LabelTracker::Place> LabelTracker::cubes(const SceneTree& scene,
   return places;
 }
 
-/// Gives a number to each thing of this frame, namely the number of the known object that it
-/// overlaps most, or a new one.
+/// Gives a number to each thing of this frame. This is the number of the known object that the
+/// thing overlaps most, or a new number.
 /// @param places the places of the things, sorted by key. @param segments the number of segments,
-/// which come first among the things; each gets a number even if it has no place.
-/// @return the number of each thing; 0 if it has none.
+/// which come first among the things. Each segment gets a number even if it has no place.
+/// @return the number of each thing, or 0 if the thing has none.
 std::vector<std::uint32_t> LabelTracker::match(std::vector<Place> places, std::size_t things,
                                                std::size_t segments) {
-  constexpr double least = 0.25;  // share of the smaller of the two
+  constexpr double least = 0.25;  // the share of the smaller of the two
   std::vector<double> size_of_thing(things), size_of_object(objects_.size());
   const auto index_of = [&](std::uint32_t number) {
     return static_cast<std::size_t>(
@@ -181,7 +183,8 @@ std::vector<std::uint32_t> LabelTracker::match(std::vector<Place> places, std::s
   for (const Place& p : places_) ++size_of_object[index_of(p.number)];
 
   std::map<std::pair<std::size_t, std::size_t>, double> shared;
-  std::vector<Place> uncovered;  // places of objects that no segment covers now
+  // The places of objects that no segment covers now.
+  std::vector<Place> uncovered;
   auto now = places.begin();
   for (const Place& before : places_) {
     while (now != places.end() && now->key < before.key) ++now;
@@ -211,8 +214,8 @@ std::vector<std::uint32_t> LabelTracker::match(std::vector<Place> places, std::s
     // mutant: number-used
     if (numbers[i] == 0 && (i < segments || size_of_thing[i] > 0)) numbers[i] = next_++;
 
-  // Remembers the things of this frame and the objects that were seen recently. Such an object
-  // keeps only the places that nothing covers now.
+  // The things of this frame and the objects that were seen recently are remembered. An object that
+  // was seen recently keeps only the places that nothing covers now.
   std::vector<Object> remembered;
   for (std::size_t i = 0; i < objects_.size(); ++i) {
     Object known = objects_[i];

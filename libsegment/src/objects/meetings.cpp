@@ -22,7 +22,7 @@ void find_neighbours(const MergeTree& tree, const Contacts& contacts, SceneCut& 
   }
   for (Segment& s : cut.segments) {
     if (s.neighbours.empty()) continue;
-    // Equal values stay in the order of the labels.
+    // Neighbours with equal values stay in the order of the labels.
     std::ranges::stable_sort(s.neighbours, {}, &Neighbour::meets_at);
     s.neighbour = s.neighbours.front().label;
     s.meets_at = s.neighbours.front().meets_at;

@@ -51,7 +51,8 @@ class HiddenJoins {
 
   template <class Join>
   void find(const RunContext& context, Join&& join) const {
-    constexpr double least_of_each = 0.1, least_of_both = 0.34;  // shares of the borders
+    // The shares of the borders.
+    constexpr double least_of_each = 0.1, least_of_both = 0.34;
     std::vector<PartBox<3>> boxes;
     for (std::uint32_t p = 0; p < borders_.size(); ++p)
       if (!borders_[p].empty()) boxes.push_back({p, box_of(borders_[p])});
@@ -66,9 +67,10 @@ class HiddenJoins {
   }
 
  private:
-  static constexpr double kLongestGap = 0.15;  // metres; a wider occluder allows only a guess
+  // In metres; behind a wider occluder, a join would only be a guess.
+  static constexpr double kLongestGap = 0.15;
 
-  /// Clears a border that has too few voxels. Of any other border, keeps a limited number of evenly
+  /// Clears a border that has too few voxels. In any other border, keeps a limited number of evenly
   /// spread voxels, because the decision about parts depends only on shares of the voxels.
   static void thin_out(Border& border) {
     constexpr std::size_t fewest = 5, most = 60;
@@ -91,7 +93,7 @@ class HiddenJoins {
   }
   /// True if one smooth surface through both voxels is hidden between them.
   bool goes_on(const BorderVoxel& a, const BorderVoxel& b) const {
-    constexpr double cosine = 0.966;  // of 15 degrees between the normals
+    constexpr double cosine = 0.966;  // the cosine of 15 degrees between the normals
     constexpr double slope = 0.05;
     if (a.normal.dot(b.normal) < cosine) return false;
     const Eigen::Vector3d d = b.place - a.place;

@@ -16,17 +16,13 @@ struct Surface {
   std::optional<Plane> support{};  ///< the supporting plane, if there is one
 };
 
-/// Joins the visible parts of one object. Two parts belong together in any of these cases:
+/// Joins the visible parts of one object. Two parts belong together in each of these cases:
 /// - They meet without a seam, that is, the surface between them is not concave. An example is the
 ///   rim between the inside and the outside of a bowl.
-/// - One surface continues behind something nearer that hides its middle. Enough voxels next to the
-///   occluder then have a partner on its other side: each of the two lies in the tangent plane of
-///   the other, and the line between them is hidden.
-/// - One round rim surrounds both, see rims.hpp.
 /// @param part_of for each voxel, one of the voxels of its part. @param min_size parts with fewer
 /// voxels are not joined.
-/// @return for each voxel, one of the voxels of its object. O(voxels log voxels + pairs), plus the
-/// pairs of parts that are near each other.
+/// @return for each voxel, one of the voxels of its object. Takes O(voxels log voxels + pairs)
+/// time, plus time for the pairs of parts that are near each other.
 /// @throws Error (cancelled) as `context` asks.
 std::vector<Index> join_parts(const VoxelGrid& grid, const Surface& surface, double voxel,
                               const std::vector<Index>& part_of, Index min_size,

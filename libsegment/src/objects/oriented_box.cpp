@@ -34,7 +34,7 @@ RawVector<T> coordinates(const Coordinates& points, const Vector3d& axis) {
   return result;
 }
 
-/// The least and the largest of some numbers, found by comparing many at a time.
+/// The smallest and the largest of some numbers, found by comparing many numbers at a time.
 template <class T>
 std::pair<T, T> range_of(std::span<const T> numbers) {
   constexpr std::size_t lanes = 16;
@@ -53,8 +53,9 @@ std::pair<T, T> range_of(std::span<const T> numbers) {
   return {std::ranges::min(low), std::ranges::max(high)};
 }
 
-/// The points that are farthest along x, x + y, y, y - x, and in the opposite directions: the
-/// corners of an octagon, counter-clockwise. @param step only every step-th point is considered.
+/// The points that are farthest along x, x + y, y, y - x, and in the opposite directions. They are
+/// the corners of an octagon, in counter-clockwise order. @param step only every step-th point is
+/// considered.
 template <class T>
 std::array<std::array<T, 2>, 8> octagon(std::span<const T> u, std::span<const T> v,
                                         std::size_t step) {
@@ -78,9 +79,9 @@ std::array<std::array<T, 2>, 8> octagon(std::span<const T> u, std::span<const T>
   return corners;
 }
 
-/// The numbers of the points that may be on the hull, which are all points except those inside the
-/// octagon (after Akl & Toussaint 1978). @param height the largest coordinate perpendicular to the
-/// plane; its rounding error counts as well.
+/// The numbers of the points that may be on the hull. They are all points except the points inside
+/// the octagon (after Akl & Toussaint 1978). @param height the largest coordinate perpendicular to
+/// the plane, whose rounding error must also be allowed for.
 template <class T>
 std::vector<std::size_t> outside_octagon(std::span<const T> u, std::span<const T> v,
                                          std::size_t step, T height) {
@@ -100,7 +101,8 @@ std::vector<std::size_t> outside_octagon(std::span<const T> u, std::span<const T
     c[k] = length == 0 ? -std::numeric_limits<T>::infinity()
                        : a[k] * from[0] + b[k] * from[1] + rounding * reach * length;
   }
-  const bool has_inside = has_edges && reach < too_large;  // beyond this, products overflow
+  // Beyond this limit, products overflow.
+  const bool has_inside = has_edges && reach < too_large;
   RawVector<T> inside(u.size());  // positive for a point inside the octagon
   for (std::size_t i = 0; i < inside.size(); ++i) {
     T nearest = std::numeric_limits<T>::infinity();
@@ -117,8 +119,8 @@ std::vector<std::size_t> outside_octagon(std::span<const T> u, std::span<const T
 }
 
 /// The projections, onto the plane with axes u and v, of all points that may be on the hull. An
-/// octagon of some of the points rules out nearly all points in single precision; the octagon of
-/// the remaining points then rules out most of them in double precision.
+/// octagon of some of the points rules out nearly all points in single precision. The octagon of
+/// the remaining points then rules out most of these points in double precision.
 std::vector<Vector2d> outer_places(const Coordinates& points, const Vector3d& u, const Vector3d& v,
                                    double height) {
   constexpr std::size_t step = 8;
@@ -136,7 +138,7 @@ std::vector<Vector2d> outer_places(const Coordinates& points, const Vector3d& u,
   return places;
 }
 
-/// The corners of the convex hull, counter-clockwise (Andrew's monotone chain).
+/// The corners of the convex hull in counter-clockwise order, by Andrew's monotone chain.
 std::vector<Vector2d> convex_hull(std::vector<Vector2d> points) {
   const auto comes_before = [](const Vector2d& a, const Vector2d& b) {
     return a[0] != b[0] ? a[0] < b[0] : a[1] < b[1];
@@ -190,7 +192,7 @@ Vector2d direction_of_smallest_rectangle(const std::vector<Vector2d>& hull) {
   return best;
 }
 
-/// Chooses, of a direction and its opposite, the one whose largest coordinate is positive.
+/// Returns the direction or its opposite, whichever has a positive largest coordinate.
 Vector3d pointing_forward(const Vector3d& direction) {
   Index largest = 0;
   direction.cwiseAbs().maxCoeff(&largest);
@@ -258,7 +260,7 @@ std::array<Vec3, 3> principal_axes(const Points& places, std::span<const double>
     const Vector3d d = Vector3d(as_matrix(places).row(i)) - mean;
     covariance += weights[static_cast<std::size_t>(i)] * d * d.transpose();
   }
-  // Eigenvalues in ascending order.
+  // The eigenvalues are in ascending order.
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance);
   Vector3d last = solver.eigenvectors().col(0);
   if (last.dot(vector(viewpoint) - mean) < 0) last = -last;

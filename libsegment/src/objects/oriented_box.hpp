@@ -6,8 +6,8 @@
 
 namespace ph::segment {
 
-/// The coordinates of one or more points. x, y and z have an array each, so that the compiler can
-/// vectorise loops over them.
+/// The coordinates of one or more points. There is one array each for x, y and z, so that the
+/// compiler can vectorise loops over them.
 struct Coordinates {
   std::span<const float> x, y, z;
 };
@@ -16,17 +16,17 @@ struct Coordinates {
 Box box_around(const Coordinates& points);
 
 /// The box of points on a plane. Its base is the smallest rectangle around their projections onto
-/// the plane, and it extends to their heights. One side of this rectangle lies along an edge of the
-/// convex hull (Freeman & Shapira 1975); rotating calipers find it (Toussaint 1983). O(n) plus O(h
-/// log h) for the h points near the hull.
-/// @param up unit normal of the plane.
+/// the plane, and it extends to their heights. One side of this rectangle is along an edge of the
+/// convex hull (Freeman & Shapira 1975). Rotating calipers find this side (Toussaint 1983). Takes
+/// O(n) time plus O(h log h) for the h points near the hull.
+/// @param up the unit normal of the plane.
 OrientedBox box_on_plane(const Coordinates& points, const Vec3& up);
 
 /// The box of points along given axes. @param axes three orthogonal unit vectors.
 OrientedBox box_along(const Coordinates& points, const std::array<Vec3, 3>& axes);
 
-/// The principal axes of weighted places, largest spread first, right-handed; the last one points
-/// towards the viewpoint. @param places one per row, at least one.
+/// The principal axes of weighted places, right-handed, with the largest spread first. The last
+/// axis points towards the viewpoint. @param places one per row, at least one.
 std::array<Vec3, 3> principal_axes(const Points& places, std::span<const double> weights,
                                    const Vec3& viewpoint);
 

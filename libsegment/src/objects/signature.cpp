@@ -30,7 +30,7 @@ Barcode signature(const SceneTree& scene, const SceneCut& cut,
     if (!is_wanted(cut.vertex_labels[v])) continue;
     std::ranges::copy(scene.cells[v], voxels.row(row++).begin());
   }
-  // Lengths are in voxels, so that the grid of the image equals the scene's.
+  // Lengths are in voxels, so that the grid of the image equals the grid of the scene.
   PointImage image = voxel_image(voxels, 1, VoxelValue::distance, 1, context);
   const CubicalOptions touching{.construction = CubicalOptions::Construction::cells};
   const Options options{.max_dim = 2, .min_persistence = 1};

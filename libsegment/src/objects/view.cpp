@@ -10,7 +10,7 @@ namespace ph::segment {
 namespace {
 
 /// The least edge of a cell for which the raster does not have far more cells than there are
-/// voxels. Without this limit, a few objects that lie far apart would need a huge raster that is
+/// voxels. Without this limit, a few objects that are far apart would need a huge raster that is
 /// nearly empty.
 double least_cell(const Eigen::Array2d& size, std::size_t voxels) {
   constexpr double cells_a_voxel = 16, fewest = 1 << 18, most_a_side = 2048;
@@ -23,7 +23,7 @@ double least_cell(const Eigen::Array2d& size, std::size_t voxels) {
 View::View(const Points& centroids, double voxel, const Vec3& viewpoint)
     : ranges_(static_cast<std::size_t>(centroids.rows())), places_(ranges_.size(), {-1, -1}) {
   constexpr double voxels_a_cell = 1.3;    // smaller cells leave gaps between neighbouring voxels
-  constexpr double smallest_cosine = 0.2;  // of 78 degrees
+  constexpr double smallest_cosine = 0.2;  // the cosine of 78 degrees
   const Eigen::Vector3d eye(viewpoint[0], viewpoint[1], viewpoint[2]);
   const auto ray = [&](Voxel v) -> Eigen::Vector3d {
     return as_matrix(centroids).row(v).transpose() - eye;
@@ -54,7 +54,8 @@ View::View(const Points& centroids, double voxel, const Vec3& viewpoint)
   }
   if (!(low <= high).all()) return;
   cell = std::max(cell, least_cell(high - low, ranges_.size()));
-  if (!(cell > 0)) return;  // the viewpoint is so far away that everything lies in one direction
+  // The viewpoint is so far away that all voxels are in one direction.
+  if (!(cell > 0)) return;
   width_ = static_cast<std::size_t>((high - low)[0] / cell) + 1;
   height_ = static_cast<std::size_t>((high - low)[1] / cell) + 1;
   nearest_.assign(width_ * height_, kNone);

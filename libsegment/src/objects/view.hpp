@@ -9,9 +9,9 @@
 
 namespace ph::segment {
 
-/// The voxels as the sensor saw them: a raster of directions with cells of about one voxel, and
-/// with the nearest voxel in each cell. Where there would be far more cells than voxels, the raster
-/// has fewer and larger cells. Voxels more than 78 degrees from the middle are left out.
+/// The voxels as the sensor saw them. The view is a raster of directions with cells of about one
+/// voxel, and with the nearest voxel in each cell. If there would be far more cells than voxels,
+/// the raster has fewer and larger cells. Voxels more than 78 degrees from the middle are left out.
 class View {
  public:
   using Voxel = std::uint32_t;
@@ -24,9 +24,9 @@ class View {
   /// kind of a voxel.
   template <class KindOf>
   bool is_at_occluder(Voxel v, double nearer, KindOf&& kind_of) const;
-  /// Counts cells along the straight line between two voxels. Cells whose nearest voxel is of the
-  /// same kind as one of the ends are ignored; `cells` counts all others, and `hidden` those with
-  /// something nearer than the line.
+  /// The numbers of cells along the straight line between two voxels. Cells whose nearest voxel is
+  /// of the same kind as one of the ends are ignored. `cells` counts all other cells, and `hidden`
+  /// counts those of them with something nearer than the line.
   struct Cover {
     int hidden = 0, cells = 0;
   };
@@ -58,7 +58,7 @@ class View {
   std::vector<Place> places_;   // negative for a voxel that is left out
   std::size_t width_ = 0, height_ = 0;
   std::vector<Voxel> nearest_;
-  // For each cell, the range of its nearest voxel; kInfinity without one.
+  // For each cell, the range of its nearest voxel, or kInfinity if it has no voxel.
   std::vector<double> nearest_range_;
   // For each cell, the least range of the voxels within kReach cells.
   std::vector<double> least_range_;

@@ -28,7 +28,7 @@ class Seams {
       push(both);
     }
   }
-  /// The two basins with the weakest seam between them; empty if no seam is weaker than `least`.
+  /// The two basins with the weakest seam between them. Empty if no seam is weaker than `least`.
   std::optional<std::pair<Basin, Basin>> weakest(double least) {
     for (; !queue_.empty(); queue_.pop()) {
       const auto& [strength, both, size] = queue_.top();
@@ -39,7 +39,7 @@ class Seams {
     }
     return std::nullopt;
   }
-  /// The seams of `gone` become seams of `kept`.
+  /// Turns the seams of `gone` into seams of `kept`.
   void join(Basin kept, Basin gone) {
     for (const Basin other : neighbours_[gone]) {
       auto seam = values_.extract(std::minmax(gone, other));
@@ -69,8 +69,8 @@ class Seams {
 
   std::map<Both, Values> values_;
   std::map<Basin, std::set<Basin>> neighbours_;
-  /// Ordered by strength. If a seam has grown since its entry was made, its size differs from the
-  /// entry's.
+  /// The seams, ordered by strength. If a seam has grown since its entry was made, its size differs
+  /// from the size in the entry.
   using Weighed = std::tuple<double, Both, std::size_t>;
   std::priority_queue<Weighed, std::vector<Weighed>, std::greater<>> queue_;
 };
@@ -89,7 +89,8 @@ std::vector<Index> join_over_weak_seams(const std::vector<Index>& basin_of,
                 std::max(births[pair.u], births[pair.v]));
   }
   seams.weigh();
-  std::map<Basin, Basin> into;  // for each basin that is gone, the basin that took it in
+  // For each basin that is gone, the basin into which it was merged.
+  std::map<Basin, Basin> into;
   while (const auto both = seams.weakest(least)) {
     context.poll();
     seams.join(both->first, both->second);

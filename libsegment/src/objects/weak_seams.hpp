@@ -9,12 +9,12 @@
 namespace ph::segment {
 
 /// Joins basins that a seam separates too weakly. Persistence judges a seam by its lowest place,
-/// where noise and a true seam may look alike; over their whole length, they differ. The strength
-/// of a seam is therefore the lower quartile of the filtration along it. The two basins at the
-/// weakest seam are joined first, and count as one basin from then on.
+/// where noise and a true seam may look alike. Over their whole length, noise and a true seam
+/// differ. The strength of a seam is therefore the lower quartile of the filtration along it. The
+/// two basins at the weakest seam are joined first, and count as one basin from then on.
 /// @param basin_of for each voxel, one of the voxels of its basin. @param births the births of the
 /// voxels.
-/// @param pairs pairs of voxels; a pair with a distance below `radius` has an edge, whose value is
+/// @param pairs pairs of voxels. A pair with a distance below `radius` has an edge, whose value is
 /// the later of the two births.
 /// @param least the strength below which a seam is removed.
 /// @return for each voxel, one of the voxels of its final basin.

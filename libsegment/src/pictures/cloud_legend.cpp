@@ -12,7 +12,7 @@ namespace ph::segment {
 namespace {
 
 constexpr std::size_t kMostListed = 16;
-// The size of a digit in pixels; a pixel is 88 mm / 1040 wide.
+// The size of a digit in pixels. The width of a pixel is 88 mm / 1040.
 constexpr double kDigitWidth = 17, kDigitHeight = 28;
 
 /// Formats a number as "12,345".
@@ -37,7 +37,7 @@ ColouredPicture with_legend(CloudPicture picture, std::span<const std::uint32_t>
   std::vector<std::size_t> order(colours.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::stable_sort(order, std::greater<>(), points_of);
-  // If only one segment is left over, it is listed itself instead of being counted as other.
+  // If only one segment remains, it is listed itself instead of being counted as other.
   const std::size_t listed = order.size() <= kMostListed + 1 ? order.size() : kMostListed;
 
   ColouredPicture result;

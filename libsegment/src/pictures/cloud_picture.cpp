@@ -20,15 +20,17 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kSide = 1040;  // pixels
+constexpr double kSide = 1040;  // in pixels
 constexpr int kFiner = 2;       // the picture is drawn this many times larger, then averaged
 constexpr double kMargin = 0.12;
-constexpr int kUsual = 190;        // brightness of points with neither colour nor normal
-constexpr double kNearest = 0.02;  // share of the eye's distance; nearer points count as behind it
+// The brightness of points with neither colour nor normal.
+constexpr int kUsual = 190;
+// The share of the eye's distance; nearer points count as behind the eye.
+constexpr double kNearest = 0.02;
 
 Vector3d vector(const Vec3& v) { return {v[0], v[1], v[2]}; }
 
-/// The points that are drawn: all except holes.
+/// The points that are drawn, which are all points except holes.
 struct Shown {
   std::vector<Vector3d> points;
   std::vector<std::uint32_t> colours, labels;
@@ -87,7 +89,7 @@ Shown shown(const Cloud* cloud, const SceneTree& scene, std::span<const std::uin
   return shown;
 }
 
-/// The upward direction. In a camera's frame, y points down; in other clouds, z points up.
+/// The upward direction. In a camera's frame, y points down. In other clouds, z points up.
 Vector3d up_of(const SceneTree& scene) {
   if (scene.height > 1) return {0, -1, 0};
   return scene.plane ? vector(scene.plane->normal) : Vector3d(0, 0, 1);
@@ -136,7 +138,7 @@ class Camera {
   int width() const { return pixels_[0]; }
   int height() const { return pixels_[1]; }
   double depth(const Vector3d& point) const { return (point - eye_).dot(forward_); }
-  /// The position of a point, in pixels; nothing if the point is behind the eye.
+  /// The position of a point, in pixels. Returns nothing if the point is behind the eye.
   std::optional<Vector2d> place(const Vector3d& point) const {
     const auto at = direction(point);
     if (!at) return std::nullopt;
@@ -146,7 +148,7 @@ class Camera {
   double scale_at(double depth) const { return scale_ / depth; }
 
  private:
-  /// The points of segments, or all points if there are none.
+  /// Visits the points of segments, or all points if there are no segments.
   template <class Visit>
   static void for_each_framed(const Shown& shown, Visit&& visit) {
     for (const std::uint32_t i : shown.segments) visit(shown.points[i]);
@@ -168,8 +170,8 @@ class Camera {
   std::array<int, 2> pixels_{kFiner, kFiner};
 };
 
-/// The distance between neighbouring points, metres, derived from the voxels; for a camera it grows
-/// with the range.
+/// The distance between neighbouring points in metres, derived from the voxels. For a camera, this
+/// distance grows with the range.
 class Spacing {
  public:
   explicit Spacing(const SceneTree& scene)
@@ -201,7 +203,8 @@ struct Pixel {
 
 /// Draws each point as a square about as large as the piece of surface that it represents.
 std::vector<Pixel> draw(const Shown& shown, const Camera& camera, const Spacing& spacing) {
-  constexpr double least = 2, most = 40, overlap = 1.5;  // least and most in pixels
+  // `least` and `most` are in pixels.
+  constexpr double least = 2, most = 40, overlap = 1.5;
   std::vector<Pixel> pixels(static_cast<std::size_t>(camera.width() * camera.height()));
   for (std::size_t i = 0; i < shown.points.size(); ++i) {
     const Vector3d& point = shown.points[i];
@@ -228,8 +231,8 @@ std::vector<Pixel> draw(const Shown& shown, const Camera& camera, const Spacing&
   return pixels;
 }
 
-/// Darkens a pixel beside something much nearer, so that outlines become visible: eye-dome lighting
-/// (Boucheny 2009).
+/// Darkens a pixel beside something much nearer, so that outlines become visible. This is eye-dome
+/// lighting (Boucheny 2009).
 double light_at(const std::vector<Pixel>& pixels, int width, int height, int x, int y) {
   constexpr int reach = 3;
   constexpr double strength = 2.5, darkest = 0.45;
@@ -273,14 +276,14 @@ Raster averaged(const Shown& shown, const std::vector<Pixel>& pixels, int width,
   return raster;
 }
 
-/// For each segment, the place at which to write its number: among the visible pixels with the most
-/// room around them inside the segment, the one nearest to its middle. Empty if too few of its
-/// pixels are visible.
+/// For each segment, the place at which its number is written. Of the visible pixels with the most
+/// room around them inside the segment, it is the pixel nearest to the middle of the segment. Empty
+/// if too few of its pixels are visible.
 std::vector<std::optional<std::array<double, 2>>> middles_of(const Shown& shown,
                                                              const std::vector<Pixel>& pixels,
                                                              int width, int height,
                                                              std::size_t segments) {
-  constexpr std::size_t fewest = 80;  // pixels of the picture that a legible number needs
+  constexpr std::size_t fewest = 80;  // the number of pixels that a legible number needs
   const auto label_at = [&](int x, int y) -> std::uint32_t {
     if (x < 0 || y < 0 || x >= width || y >= height) return 0;
     const std::size_t place =
@@ -306,7 +309,7 @@ std::vector<std::optional<std::array<double, 2>>> middles_of(const Shown& shown,
     seen[i].x += x;
     seen[i].y += y;
   });
-  /// How many of these distances can be walked left, right, up and down without leaving the
+  /// Counts how many of these distances can be walked left, right, up and down without leaving the
   /// segment.
   const auto room_at = [&](int x, int y) {
     const std::uint32_t label = label_at(x, y);

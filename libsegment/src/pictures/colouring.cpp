@@ -11,11 +11,11 @@
 namespace ph::segment {
 namespace {
 
-// Masataka Okabe and Kei Ito, "Color Universal Design" (2008), without black. Strong contrasts
-// first.
+// The palette of Masataka Okabe and Kei Ito, "Color Universal Design" (2008), without black. Strong
+// contrasts come first.
 constexpr std::array<std::uint32_t, 7> kPalette = {0xE69F00, 0x0072B2, 0x009E73, 0xCC79A7,
                                                    0x56B4E9, 0xD55E00, 0xF0E442};
-constexpr Index kReach = 4;  // pixels
+constexpr Index kReach = 4;  // in pixels
 
 using Neighbours = std::vector<std::vector<std::size_t>>;
 
@@ -187,7 +187,7 @@ Raster picture(const Cloud& cloud, std::span<const std::uint32_t> labels,
   const auto differs = [&](Index x, Index y, std::uint32_t label) {
     return x >= 0 && y >= 0 && x < width && y < height && at(x, y) != label;
   };
-  // An outline separates a segment only from regions larger than a speck: gaps of a few pixels get
+  // An outline separates a segment only from regions larger than a speck. Gaps of a few pixels get
   // no outline.
   const auto ends_at = [&](Index x, Index y, Index dx, Index dy, std::uint32_t label) {
     return differs(x + dx, y + dy, label) && differs(x + kReach * dx, y + kReach * dy, label);
@@ -203,7 +203,8 @@ Raster picture(const Cloud& cloud, std::span<const std::uint32_t> labels,
         c = {255, 255, 255};
       } else if (label != 0) {
         const Rgb tint = unpack(colours[label - 1]);
-        // 70 % colour, 30 % of the camera's brightness: the hue stays the palette's.
+        // The result is 70 % colour and 30 % of the camera's brightness, so that the hue of the
+        // palette remains.
         c = {(7 * tint.r + 3 * g) / 10, (7 * tint.g + 3 * g) / 10, (7 * tint.b + 3 * g) / 10};
       }
       for (const int channel : {c.r, c.g, c.b}) {

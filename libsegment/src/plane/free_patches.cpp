@@ -33,7 +33,7 @@ class SquaredPaper {
     constexpr double middle = kColumns * kParts / 2;
     origin_ = Eigen::Array2d(middle - across.dot(eye), middle - along.dot(eye));
   }
-  /// Calls `use` for each run. In the order of an image, many consecutive points lie over the same
+  /// Calls `use` for each run. In the order of an image, many consecutive points are over the same
   /// square.
   template <class Use>
   void for_each_run(const std::vector<Index>& points, Use&& use) const {
@@ -64,9 +64,10 @@ class SquaredPaper {
 
   /// The column and the row of a point, counted in parts.
   std::array<std::uint32_t, 2> place_of(const float* p) const {
-    // Near `whole`, neighbouring doubles differ by one. Adding it therefore rounds a place to a
-    // whole number, which the last bits of the sum hold even if it is negative. Subtracting `half`
-    // first makes the rounding go down. Points too far away for this may get any part.
+    // Near `whole`, neighbouring doubles differ by one. Adding `whole` therefore rounds a place to
+    // a whole number. The last bits of the sum contain this number even if it is negative.
+    // Subtracting `half` first makes the rounding go down. Points too far away for this computation
+    // may get any part.
     constexpr double whole = 1.5 * (1ULL << 52), half = 0.5;
     const Eigen::Array2d place = steps_[0] * p[0] + steps_[1] * p[1] + steps_[2] * p[2] + origin_;
     const Eigen::Array2d shifted = (place - half) + whole;
@@ -81,7 +82,7 @@ class SquaredPaper {
   Eigen::Array2d origin_;
 };
 
-/// Chooses at most `most` squares, evenly by their distance from the foot of the viewpoint.
+/// Chooses at most `most` squares, evenly spread by their distance from the foot of the viewpoint.
 std::vector<std::size_t> some_of(std::vector<std::size_t> squares, std::size_t most) {
   std::ranges::sort(squares, {},
                     [](std::size_t s) { return std::pair(SquaredPaper::farness(s), s); });
@@ -96,10 +97,11 @@ std::vector<std::size_t> some_of(std::vector<std::size_t> squares, std::size_t m
 
 std::vector<Index> free_patches(const CloudView& cloud, const std::vector<Index>& on_plane,
                                 const std::vector<Index>& beyond, const Plane& plane, double side) {
-  constexpr std::size_t most = 24;  // largest number of squares, which bounds the work
-  // Parts are counted, not points, because duplicate points carry no information.
-  constexpr int most_above = 2;  // an object covers more parts, flying pixels fewer
-  constexpr int fewest = 32;     // of the 64 parts of a square
+  constexpr std::size_t most = 24;  // the largest number of squares, which limits the work
+  // Parts are counted instead of points, because duplicate points carry no information.
+  // An object covers more parts, and flying pixels cover fewer parts.
+  constexpr int most_above = 2;
+  constexpr int fewest = 32;  // of the 64 parts of a square
   const SquaredPaper paper(cloud, plane, side);
   std::vector<std::uint64_t> above(SquaredPaper::kCount), on(SquaredPaper::kCount);
   std::vector<SquaredPaper::Run> runs;

@@ -12,8 +12,9 @@ namespace ph::segment {
 namespace {
 
 constexpr std::size_t kMostLookedAt = 20000;
-constexpr double kCell = 4;  // side, in margins, of the square of the plane that a point represents
-// Share of the points; if fewer are behind the plane, nothing else is examined.
+// The side, in margins, of the square of the plane that a point represents.
+constexpr double kCell = 4;
+// A share of the points. If fewer points are behind the plane, nothing else is examined.
 constexpr double kFewBehind = 0.1;
 
 }  // namespace

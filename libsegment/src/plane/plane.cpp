@@ -12,24 +12,25 @@
 namespace ph::segment {
 namespace {
 
-constexpr std::size_t kSample = 4096;  // points that take part in the refits
-constexpr std::size_t kScored = 1024;  // points that score a hypothesis
-// Enough to find a plane that holds a quarter of the points with a probability of 99.96 %.
+constexpr std::size_t kSample = 4096;  // the number of points that take part in the refits
+constexpr std::size_t kScored = 1024;  // the number of points that score a hypothesis
+// This number is enough to find a plane that contains a quarter of the points with a probability of
+// 99.96 %.
 constexpr int kHypotheses = 500;
 constexpr int kRefits = 4;
 // A plane with a smaller share of the points supports nothing.
 constexpr double kSmallestShare = 0.1;
 
-/// Mixes the bits of a word (the finaliser of splitmix64, Steele, Lea & Flood 2014).
+/// Mixes the bits of a word by the finaliser of splitmix64 (Steele, Lea & Flood 2014).
 std::uint64_t mix(std::uint64_t x) {
   x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ULL;
   x = (x ^ (x >> 27)) * 0x94d049bb133111ebULL;
   return x ^ (x >> 31);
 }
 
-/// A hash of the sign and the mantissa of each coordinate: scaling by 2^k does not change it.
-/// Strongly universal in its upper half (multiply-shift of vectors; M. Thorup, High speed hashing
-/// for integers and strings, 2015).
+/// A hash of the sign and the mantissa of each coordinate. Scaling by 2^k does not change it. The
+/// upper half of the hash is strongly universal (multiply-shift of vectors; M. Thorup, High speed
+/// hashing for integers and strings, 2015).
 std::uint64_t hash_of(const float* p) {
   const auto word = [](float x) -> std::uint64_t {
     constexpr std::uint32_t no_exponent = 0x807fffffU;
@@ -47,9 +48,9 @@ struct Sample {
   Eigen::Vector3d operator[](std::size_t i) const { return {x[i], y[i], z[i]}; }
 };
 
-/// The kSample distinct points with the smallest hashes (all points if there are fewer), in the
-/// order of their hashes. This is a random sample in random order that depends on the set of points
-/// alone.
+/// The kSample distinct points with the smallest hashes, in the order of their hashes. If there are
+/// fewer points, all points are taken. This is a random sample in random order that depends only on
+/// the set of points.
 Sample draw_sample(const CloudView& cloud, const std::vector<Index>& points) {
   struct Drawn {
     std::uint64_t hash;
@@ -88,9 +89,9 @@ struct Candidate {
   double offset = 0;
 };
 
-/// The sum of the squared distances of the first `count` points, each in units of `distance` and
-/// capped at one (the score of MSAC); a low cost is good. A sum of `enough` or more is only a lower
-/// bound, because the summation then stops.
+/// The sum of the squared distances of the first `count` points, where each distance is in units of
+/// `distance` and each square is capped at one (the score of MSAC). A low cost is good. A sum of
+/// `enough` or more is only a lower bound, because the summation then stops.
 double cost_of(const Candidate& plane, const Sample& sample, std::size_t count, double distance,
                double enough) {
   const double nx = plane.normal.x() / distance, ny = plane.normal.y() / distance;
@@ -106,10 +107,11 @@ double cost_of(const Candidate& plane, const Sample& sample, std::size_t count, 
   return cost;
 }
 
-/// The best of kHypotheses planes through three points of the sample; empty if all are collinear.
+/// The best of kHypotheses planes through three points of the sample. Empty if all points are
+/// collinear.
 std::optional<Candidate> best_hypothesis(const Sample& sample, double distance) {
   const std::size_t scored = std::min(sample.size(), kScored);
-  std::uint64_t state = 0;  // a fixed seed: the same input gives the same plane
+  std::uint64_t state = 0;  // a fixed seed gives the same plane for the same input
   const auto any = [&] {
     state += 0x9e3779b97f4a7c15ULL;
     return sample[static_cast<std::size_t>(mix(state) % sample.size())];
@@ -132,8 +134,8 @@ std::optional<Candidate> best_hypothesis(const Sample& sample, double distance) 
   return best;
 }
 
-/// The least-squares plane of the points within `distance` of a plane; empty if they are collinear.
-/// The sum is repeatable, because it follows the order of the sample.
+/// The least-squares plane of the points within `distance` of a plane. Empty if these points are
+/// collinear. The sum is repeatable, because it follows the order of the sample.
 std::optional<Candidate> refit(const Candidate& plane, const Sample& sample, double distance) {
   std::vector<std::size_t> inliers;
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
@@ -164,8 +166,8 @@ double share_of(const Candidate& plane, const Sample& sample, double distance) {
   return static_cast<double>(inliers) / static_cast<double>(sample.size());
 }
 
-/// The plane of the previous frame; empty if there is none, or if it has lost more than a small
-/// share of its points.
+/// The plane of the previous frame. Empty if there is no such plane, or if it has lost more than a
+/// small share of its points.
 std::optional<Candidate> as_good_as_before(const std::optional<Plane>& guess, const Sample& sample,
                                            double distance) {
   constexpr double most_lost = 0.1;
@@ -175,7 +177,7 @@ std::optional<Candidate> as_good_as_before(const std::optional<Plane>& guess, co
   return share >= (1 - most_lost) * guess->share ? std::optional(plane) : std::nullopt;
 }
 
-/// The median; 0 if there are no values.
+/// The median, or 0 if there are no values.
 double median(std::vector<double>& values) {
   if (values.empty()) return 0;
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -214,7 +216,7 @@ PlaneSearch find_plane(const CloudView& cloud, const std::vector<Index>& points,
                        const std::optional<Plane>& guess) {
   if (points.size() < 3) return {std::nullopt, "no plane: fewer than three points in range"};
   const Sample sample = draw_sample(cloud, points);
-  // Searches with twice the thickness, because a plane through three noisy points is seldom exact
+  // The search uses twice the thickness, because a plane through three noisy points is rarely exact
   // to a millimetre.
   std::optional<Candidate> found = as_good_as_before(guess, sample, distance);
   if (!found) found = best_hypothesis(sample, 2 * distance);
@@ -237,14 +239,16 @@ PlaneSearch find_plane(const CloudView& cloud, const std::vector<Index>& points,
   }
   const Eigen::Vector3d& n = found->normal;
   const Plane plane{{n.x(), n.y(), n.z()}, found->offset, share};
-  constexpr double margins = 6;  // largest multiple of the margin that noise may reach
+  // The largest multiple of the margin that noise may reach.
+  constexpr double margins = 6;
   return {plane, "", noise_of(plane, sample, cloud.viewpoint, margins * distance),
           range_of(plane, sample, cloud.viewpoint, distance)};
 }
 
 Cleared remove_plane(const CloudView& cloud, const std::vector<Index>& points, const Plane& plane,
                      const PlaneMargin& margin) {
-  constexpr double lowest_share = 0.2;  // share of the margin that is left out of the strip
+  // The share of the margin that is left out of the strip.
+  constexpr double lowest_share = 0.2;
   Cleared cleared;
   cleared.on.reserve(points.size());  // only the memory that is written is touched
   for (const Index i : points) {

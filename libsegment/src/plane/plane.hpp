@@ -13,29 +13,29 @@ namespace ph::segment {
 /// The result of the search for the supporting plane.
 struct PlaneSearch {
   std::optional<Plane> plane;
-  std::string note;  ///< why there is no plane; empty if there is one
-  /// Standard deviation of the heights of the plane's points at a range of one unit, assuming that
-  /// it grows with the square of the range. It is estimated from the points behind the plane, where
-  /// there are no objects; 0 if these are too few.
+  std::string note;  ///< the reason why there is no plane; empty if there is one
+  /// The standard deviation of the heights of the plane's points at a range of one unit, assuming
+  /// that it grows with the square of the range. It is estimated from the points behind the plane,
+  /// where there are no objects. It is 0 if these points are too few.
   double noise = 0;
   double range = 0;  ///< median distance of the plane's points from the viewpoint
 };
 
 /// Finds the supporting plane, which is the plane with the most points. Uses RANSAC on a sample
 /// (Fischler & Bolles 1981, scored as in MSAC, Torr & Zisserman 2000) and least-squares refits.
-/// O(points); the number of hypotheses is fixed, and the worst case is therefore as fast as the
-/// best. A hash of the coordinates draws the sample, so that the plane does not depend on the order
-/// of the points, on duplicates, or on scaling by a power of two.
+/// Takes O(points) time. The number of hypotheses is fixed, so the worst case is as fast as the
+/// best case. A hash of the coordinates draws the sample. The plane therefore does not depend on
+/// the order of the points, on duplicates, or on scaling by a power of two.
 /// @param points indices into the cloud, none of them a hole.
-/// @param distance half the thickness of the plane, metres, > 0. @param guess the plane of a
-/// previous frame; it replaces the hypotheses if the share of the points on it is still nearly
+/// @param distance half the thickness of the plane, in metres, > 0. @param guess the plane of a
+/// previous frame, which replaces the hypotheses if the share of the points on it is still nearly
 /// Plane::share.
 PlaneSearch find_plane(const CloudView& cloud, const std::vector<Index>& points, double distance,
                        const std::optional<Plane>& guess = {});
 
 /// The distance from a plane up to which a point counts as part of it.
 struct PlaneMargin {
-  double distance;  ///< metres
+  double distance;  ///< in metres
   /// The least margin at a range of one metre, in metres. It allows for the noise of depth from
   /// disparity, which grows with the square of the range (Khoshelham & Elberink 2012).
   double noise = 0;
@@ -50,19 +50,20 @@ struct PlaneMargin {
 /// The points in range, divided by a plane.
 struct Cleared {
   std::vector<Index> beyond;  ///< on the sensor's side of the plane and beyond the margin
-  std::vector<Index> on;      ///< within the margin, on either side: part of the plane
+  /// Within the margin, on both sides; these points count as part of the plane.
+  std::vector<Index> on;
   /// The points of `on` on the sensor's side, without those in the lowest fifth of the margin,
   /// which look like the plane itself.
   std::vector<Index> strip;
 };
 
-/// Removes the points on the plane or behind it (the floor beyond a table's edge, reflections),
-/// because they stand on nothing. All lists are in the order of `points`.
+/// Removes the points on the plane or behind it (such as the floor beyond a table's edge, or
+/// reflections), because they stand on nothing. All lists are in the order of `points`.
 Cleared remove_plane(const CloudView& cloud, const std::vector<Index>& points, const Plane& plane,
                      const PlaneMargin& margin);
 
-/// The share of all points of a cloud, without holes, that lie behind a plane and beyond the
-/// margin. In a large cloud, the share is taken of a sample of the points.
+/// The share of all points of a cloud, without holes, that are behind a plane and beyond the
+/// margin. In a large cloud, the share is computed from a sample of the points.
 double share_behind(const CloudView& cloud, const Plane& plane, const PlaneMargin& margin);
 
 /// The cosine of the angle between two planes, below zero if they face each other.

@@ -10,19 +10,23 @@
 namespace ph::segment {
 namespace {
 
-constexpr double kSample = 4096;      // number of points that are used
-constexpr std::size_t kFewest = 100;  // with fewer points the result is empty
-constexpr double kNear = 0.1;         // share of the range; closer places count as the same
-constexpr double kSure = 0.05;  // share of the range within which two halves of the points agree
-constexpr double kGoodPixels = 0.5;   // pixels; the error of a pinhole camera is below this
-constexpr double kTimesWorse = 5;     // a viewpoint that explains the pixels so much worse is wrong
-constexpr double kOutlierPixels = 3;  // a pixel with a larger error shows something else
-constexpr double kFewestInliers = 0.75;  // share of all sightings
-// In units of the points' spread; rays that meet farther away than this count as parallel.
+constexpr double kSample = 4096;      // the number of points that are used
+constexpr std::size_t kFewest = 100;  // with fewer points, the result is empty
+constexpr double kNear = 0.1;         // a share of the range; closer places count as the same
+// The share of the range within which two halves of the points agree.
+constexpr double kSure = 0.05;
+// In pixels; the error of a pinhole camera is below this.
+constexpr double kGoodPixels = 0.5;
+// A viewpoint that explains the pixels so much worse is wrong.
+constexpr double kTimesWorse = 5;
+constexpr double kOutlierPixels = 3;     // a pixel with a larger error shows something else
+constexpr double kFewestInliers = 0.75;  // a share of all sightings
+// The distance is in units of the points' spread. Rays that meet farther away than this count as
+// parallel.
 constexpr double kFar = 20;
 
-/// A pixel and the point that it shows. All numbers are normalised: over all sightings, the mean is
-/// 0 and the mean square is 1.
+/// A pixel and the point that it shows. All numbers are normalised, so that over all sightings the
+/// mean is 0 and the mean square is 1.
 struct Sighting {
   Eigen::Vector3d point;
   Eigen::Vector2d pixel;
@@ -36,8 +40,9 @@ struct Frame {
   double pixels = 0;  // pixels per unit of Sighting::pixel
 };
 
-/// The sums for fitting a projection by least squares: the products v vᵀ of vectors of N numbers,
-/// both plain and weighted by the terms that a pixel adds to the equations.
+/// The sums for fitting a projection by least squares. They are sums of the products v vᵀ of
+/// vectors of N numbers. Some are plain sums, and others are weighted by the terms that a pixel
+/// adds to the equations.
 template <int N>
 struct Equations {
   using Square = Eigen::Matrix<double, N, N>;
@@ -67,7 +72,7 @@ struct Equations {
 /// The homogeneous coordinates x, y, z, 1 of a point.
 Eigen::Vector4d place_of(const Sighting& s) { return s.point.homogeneous(); }
 
-/// Fits the projection matrix to the sightings; `seen_by(sighting)` returns the vector that
+/// Fits the projection matrix to the sightings. `seen_by(sighting)` returns the vector that
 /// represents the point.
 template <int N, class SeenBy>
 Eigen::Matrix<double, 3, N> fit(const Sightings& sightings, SeenBy&& seen_by, std::size_t first = 0,
@@ -78,8 +83,8 @@ Eigen::Matrix<double, 3, N> fit(const Sightings& sightings, SeenBy&& seen_by, st
   return equations.solved();
 }
 
-/// The error of each pixel, in units of Sighting::pixel; infinite for a point whose image lies at
-/// infinity.
+/// The error of each pixel, in units of Sighting::pixel. It is infinite for a point whose image is
+/// at infinity.
 template <int N, class SeenBy>
 std::vector<double> errors_of(const Eigen::Matrix<double, 3, N>& matrix, const Sightings& sightings,
                               SeenBy&& seen_by, std::size_t step = 1) {
@@ -106,7 +111,7 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-/// The sightings of points on a raster of pixels; empty if there are too few.
+/// The sightings of points on a raster of pixels. Empty if there are too few points.
 Sightings sightings_of(const CloudView& cloud, Frame& frame) {
   const Index columns = cloud.columns(), rows = cloud.rows();
   const auto step = std::max<Index>(
@@ -150,7 +155,7 @@ Projection robust_fit(const Sightings& sightings) {
   // If a sixth of the points are outliers, one in nine draws of 12 points has no outlier.
   constexpr int hypotheses = 60, points = 12;
   const std::size_t step = std::max<std::size_t>(1, sightings.size() / 1024);
-  std::minstd_rand random;  // the same numbers each time
+  std::minstd_rand random;  // this gives the same numbers in each run
   Projection best = Projection::Zero();
   double least = kInfinity;
   for (int i = 0; i < hypotheses; ++i) {
@@ -181,7 +186,7 @@ Eigen::Vector3d centre_of(const Projection& projection) {
   return -projection.leftCols<3>().fullPivLu().solve(projection.col(3));
 }
 
-/// True if all points, except a few, lie on the same side of the camera.
+/// True if all points, except a few, are on the same side of the camera.
 bool sees_forward(const Projection& projection, const Sightings& sightings) {
   constexpr double few = 0.05;
   const auto before = static_cast<double>(std::ranges::count_if(
@@ -216,7 +221,7 @@ std::optional<Vec3> centre_elsewhere(const CloudView& cloud) {
   const auto error_of_viewpoint = [&] {
     return root_mean_square(errors_of(fit<3>(sightings, direction), sightings, direction), 1);
   };
-  if (error_of_viewpoint() < good) return std::nullopt;  // nearly always true
+  if (error_of_viewpoint() < good) return std::nullopt;  // this is nearly always true
 
   const std::size_t all = sightings.size();
   Projection projection = fit<4>(sightings, place_of);

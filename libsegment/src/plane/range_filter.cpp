@@ -9,7 +9,7 @@ std::vector<Index> range_filter(const CloudView& cloud, double max_range,
                                 const std::optional<Box>& crop) {
   const auto size = cloud.size();
   const auto& [vx, vy, vz] = cloud.viewpoint;
-  // A double can hold the square of the distance between any two floats; the distance from a
+  // A double can represent the square of the distance between any two floats. The distance from a
   // farther viewpoint may be infinite.
   const double limit = max_range * max_range;
   std::vector<Index> kept;
@@ -18,7 +18,8 @@ std::vector<Index> range_filter(const CloudView& cloud, double max_range,
     const float* p = cloud.point(i);
     const double dx = p[0] - vx, dy = p[1] - vy, dz = p[2] - vz;
     const double square = dx * dx + dy * dy + dz * dz;
-    // A coordinate that is not finite makes the sum NaN or infinite: one test covers all three.
+    // A coordinate that is not finite makes the sum NaN or infinite, so one test covers all three
+    // coordinates.
     const bool is_finite = std::isfinite(double{p[0]} + p[1] + p[2]);
     if (is_finite && square <= limit) kept.push_back(static_cast<Index>(i));
   }

@@ -16,7 +16,7 @@ class Squares {
     across_ = n.unitOrthogonal();
     along_ = n.cross(across_);
   }
-  /// Column and row, whole numbers, of the square below a point.
+  /// The column and the row, as whole numbers, of the square below a point.
   std::array<double, 2> of(const Eigen::Vector3d& p) const {
     return {std::floor(across_.dot(p) / edge_), std::floor(along_.dot(p) / edge_)};
   }

@@ -17,8 +17,8 @@ struct PartBox {
 };
 
 /// Calls `visit(p, q)`, with p > q, for each pair of parts whose boxes are closer than both
-/// `reach(p)` and `reach(q)`. Sweeps along x: a box is compared only with boxes that are close
-/// enough along this axis.
+/// `reach(p)` and `reach(q)`. The function sweeps along x, and compares a box only with boxes that
+/// are close enough along this axis.
 template <int Dim, class Reach, class Visit>
 void for_each_close_pair(std::vector<PartBox<Dim>> boxes, Reach&& reach, const RunContext& context,
                          Visit&& visit) {

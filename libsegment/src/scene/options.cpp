@@ -40,7 +40,7 @@ void validate(const CloudView& cloud, const SegmentOptions& o) {
                                   count, cloud.stride));
   }
   const auto points = static_cast<Index>(cloud.size());
-  // Divides, because a product might overflow.
+  // The check divides, because a product might overflow.
   if (cloud.width < 0 ||
       (cloud.width > 0 && (points % cloud.width != 0 || points / cloud.width != cloud.height))) {
     throw Error(ErrorKind::bad_data, fmt::format("found {} points, expected {} rows of {}", points,

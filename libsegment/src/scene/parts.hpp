@@ -9,10 +9,11 @@ namespace ph::segment {
 
 /// Parts that are large enough, numbered in the order of their first voxels.
 struct Parts {
-  static constexpr std::uint32_t kSmall = UINT32_MAX;  ///< part number of voxels in no large part
+  /// The part number of voxels that are in no large part.
+  static constexpr std::uint32_t kSmall = UINT32_MAX;
 
-  std::vector<std::uint32_t> of;       ///< for each voxel the number of its part, or kSmall
-  std::vector<std::uint32_t> example;  ///< for each part its first voxel
+  std::vector<std::uint32_t> of;       ///< for each voxel, the number of its part, or kSmall
+  std::vector<std::uint32_t> example;  ///< for each part, its first voxel
 
   std::size_t count() const { return example.size(); }
 };

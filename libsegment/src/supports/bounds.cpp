@@ -24,10 +24,11 @@ std::vector<Voxels> voxels_of(const Parts& parts) {
   return voxels;
 }
 
-/// True if nearly all points lie on the viewpoint's side of a plane.
+/// True if nearly all points are on the viewpoint's side of a plane.
 bool bounds_the_view(const Plane& plane, const CloudView& cloud) {
-  constexpr PlaneMargin margin{0.02, 0.02};  // multiple of the noise
-  constexpr double most_behind = 0.01;       // share of all points: reflections, flying pixels
+  constexpr PlaneMargin margin{0.02, 0.02};  // the margin is a multiple of the noise
+  // A share of all points, which may be reflections or flying pixels.
+  constexpr double most_behind = 0.01;
   return share_behind(cloud, plane, margin) <= most_behind;
 }
 
@@ -49,9 +50,10 @@ double covered_area(const Plane& plane, const Points& centroids, const Voxels& v
 std::vector<SceneSurface> find_bounds(const CloudView& cloud, const Plane& support,
                                       const SceneTree& scene,
                                       const std::vector<Index>& component_of, Index min_size) {
-  // Cosines of the angle with the support.
+  // These are cosines of the angle with the support.
   constexpr double most_of_a_wall = 0.5, least_of_a_board = 0.98;
-  constexpr double least_area = 0.2;  // square metres of a board: twice a large board game
+  // The area of a board in square metres, which is twice the area of a large board game.
+  constexpr double least_area = 0.2;
   std::vector<SceneSurface> found;
   for (const Voxels& voxels : voxels_of(number_parts(component_of, min_size))) {
     const auto plane = plane_through(scene.vertices, scene.normals, voxels, cloud.viewpoint);

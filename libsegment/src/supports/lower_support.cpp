@@ -6,19 +6,22 @@
 namespace ph::segment {
 namespace {
 
-constexpr double kLeastDepth = 0.04;  // metres; a nearer surface is the edge of the upper support
-constexpr double kLeastPart = 0.02;   // share of the points in range
+// In metres; a nearer surface is the edge of the upper support.
+constexpr double kLeastDepth = 0.04;
+constexpr double kLeastPart = 0.02;  // a share of the points in range
 constexpr double kLeastCosine = 0.98;
-constexpr double kThickness = 0.02;  // half the thickness, metres, during the search for the plane
-constexpr PlaneMargin kBelow{0.05};  // deeper points lie below the plane
-constexpr double kMostBelow = 0.01;  // share of all points: reflections, flying pixels
+// Half the thickness, in metres, during the search for the plane.
+constexpr double kThickness = 0.02;
+constexpr PlaneMargin kBelow{0.05};  // deeper points are below the plane
+// A share of all points, which may be reflections or flying pixels.
+constexpr double kMostBelow = 0.01;
 
 }  // namespace
 
 std::optional<LowerSupport> find_lower_support(const CloudView& cloud,
                                                const std::vector<Index>& points, const Plane& upper,
                                                double least_margin) {
-  constexpr double deviations = 4;  // as for the upper support
+  constexpr double deviations = 4;  // the same number as for the upper support
   LowerSupport lower;
   for (const Index i : points) {
     const float* p = cloud.point(static_cast<std::size_t>(i));

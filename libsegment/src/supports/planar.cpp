@@ -23,7 +23,7 @@ bool is_on(const Candidate& plane, const Eigen::Vector3d& p, const Eigen::Vector
   return std::abs(plane.distance(p)) < flatness((p - eye).squaredNorm());
 }
 
-/// The least-squares plane of the voxels on a plane; empty if they lie on a line.
+/// The least-squares plane of the voxels on a plane. Empty if these voxels are on a line.
 std::optional<Candidate> refit(const Candidate& plane, const Points& centroids,
                                std::span<const Index> voxels, const Eigen::Vector3d& eye) {
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();

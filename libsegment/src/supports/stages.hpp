@@ -14,11 +14,12 @@ namespace ph::segment {
 struct LowerSupport {
   Plane plane;
   PlaneMargin margin;
-  std::vector<Index> points;  ///< points below the upper support; only they can stand on this one
+  /// The points below the upper support; only they can stand on this support.
+  std::vector<Index> points;
 };
 
-/// The largest plane below a support. Empty unless it is parallel to the support and hardly any
-/// point of the whole cloud lies below it.
+/// The largest plane below a support. Empty unless the plane is parallel to the support and hardly
+/// any point of the whole cloud is below it.
 /// @param points the points in range, without holes. @param least_margin the least
 /// PlaneMargin::noise of the plane that is found.
 std::optional<LowerSupport> find_lower_support(const CloudView& cloud,
@@ -26,11 +27,11 @@ std::optional<LowerSupport> find_lower_support(const CloudView& cloud,
                                                double least_margin);
 
 /// Determines what each segment stands on, and whether it is an object or may be one. A segment
-/// stands on a support if it reaches down to it, that is, if some of its points are as low as the
-/// support. Otherwise it stands on the segment that it touches most, if they touch at its own lower
-/// end but not at the lower end of the other segment. A segment that stands on nothing visible is
-/// an object as well, unless the border of an organised cloud cuts it off: its role is then
-/// unknown. Does nothing if there is no support.
+/// stands on a support if it reaches down to the support, that is, if some of its points are as low
+/// as the support. Otherwise it stands on the segment that it touches most, if they touch at its
+/// own lower end but not at the lower end of the other segment. A segment that stands on nothing
+/// visible is also an object, unless the border of an organised cloud cuts it off. In that case,
+/// its role is unknown. Does nothing if there is no support.
 /// @param pairs pairs of voxels that are near each other.
 void find_what_it_stands_on(const SceneTree& scene, std::span<const VoxelPair> pairs,
                             SceneCut& cut);

@@ -11,10 +11,12 @@
 namespace ph::segment {
 namespace {
 
-/// The number of points of each segment that are as low as a support. These are at most two voxels
-/// plus a margin away from it; the margin grows with the square of the range.
+/// The number of points of each segment that are as low as a support. The distance of these points
+/// from the support is at most two voxels plus a margin. The margin grows with the square of the
+/// range.
 std::vector<Index> points_at(const SceneTree& scene, const SceneCut& cut, const Plane& support) {
-  constexpr double margin = 0.005, voxels = 2;  // metres, at a range of one metre
+  // The margin is in metres, at a range of one metre.
+  constexpr double margin = 0.005, voxels = 2;
   const auto& [vx, vy, vz] = scene.viewpoint;
   std::vector<Index> count(cut.segments.size() + 1);
   for (std::size_t k = 0; k < scene.points.size(); ++k) {
@@ -27,8 +29,8 @@ std::vector<Index> points_at(const SceneTree& scene, const SceneCut& cut, const 
   return count;
 }
 
-/// For each vertex: the number of the support on which it lies, if that support was found among the
-/// components (not removed); otherwise 0.
+/// For each vertex, the number of the support on which it is, if that support was found among the
+/// components (not removed). Otherwise 0.
 std::vector<std::uint8_t> boards_of(const SceneTree& scene, const SceneCut& cut) {
   std::vector<std::uint8_t> boards(scene.cells.size());
   for (std::size_t k = 0; k < scene.points.size(); ++k) {
@@ -42,10 +44,11 @@ std::vector<std::uint8_t> boards_of(const SceneTree& scene, const SceneCut& cut)
 /// A contact of one segment with another.
 struct Contact {
   Index pairs = 0;
-  double heights = 0;  // sum of the heights of the pairs
+  double heights = 0;  // the sum of the heights of the pairs
 };
 
-/// The height of the lower end of each segment, ignoring one voxel in fifty, which may be wrong.
+/// The height of the lower end of each segment. One voxel in fifty is ignored, because it may be
+/// wrong.
 std::vector<double> lower_ends(const SceneCut& cut, const std::vector<double>& heights) {
   constexpr std::size_t outliers = 50;
   std::vector<std::vector<double>> of(cut.segments.size() + 1);
@@ -59,11 +62,11 @@ std::vector<double> lower_ends(const SceneCut& cut, const std::vector<double>& h
   return ends;
 }
 
-/// The number of points of each segment that lie at the border of the image, where some sensors see
-/// nothing. The border is a sixty-fourth of the image's columns wide. Zero for an unorganised
-/// cloud.
+/// The number of points of each segment at the border of the image, where some sensors see nothing.
+/// The width of the border is a sixty-fourth of the image's columns. The numbers are zero for an
+/// unorganised cloud.
 std::vector<Index> points_at_border(const SceneTree& scene, const SceneCut& cut) {
-  constexpr Index share = 64, least = 2;  // pixels
+  constexpr Index share = 64, least = 2;  // `least` is in pixels
   std::vector<Index> count(cut.segments.size() + 1);
   if (scene.height < 2) return count;
   const Index width = std::max(least, scene.width / share);
@@ -79,7 +82,7 @@ std::vector<Index> points_at_border(const SceneTree& scene, const SceneCut& cut)
 /// A segment that visibly stands on something is an object. A segment that stands on nothing
 /// visible and is cut off by the border of the view may be an object.
 void set_roles(const SceneTree& scene, SceneCut& cut) {
-  constexpr Index fewest = 10;  // points at the border
+  constexpr Index fewest = 10;  // the number of points at the border
   const auto stands = [](const Segment& s) { return s.on.surface != 0 || s.on.segment != 0; };
   for (Segment& s : cut.segments) s.role = Role::object;
   if (std::ranges::all_of(cut.segments, stands)) return;
@@ -93,7 +96,7 @@ void set_roles(const SceneTree& scene, SceneCut& cut) {
 void find_what_it_stands_on(const SceneTree& scene, std::span<const VoxelPair> pairs,
                             SceneCut& cut) {
   if (scene.surfaces.empty()) return;
-  constexpr Index fewest = 10;  // number of points, or of pairs of voxels
+  constexpr Index fewest = 10;  // the number of points, or of pairs of voxels
   for (Index s = scene.removed; s-- > 0;) {
     const auto number = static_cast<std::uint32_t>(s + 1);
     const std::vector<Index> count =

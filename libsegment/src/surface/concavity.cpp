@@ -17,7 +17,7 @@ namespace {
 struct Moments {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
-  int count = 1;  // the voxel itself counts; its vector is zero
+  int count = 1;  // the voxel itself counts, and its vector is zero
 
   void add(double x, double y, double z) {
     sum += Eigen::Vector3d(x, y, z);
@@ -41,10 +41,10 @@ struct Moments {
 constexpr std::size_t kLanes = 8;
 using Lanes = std::array<double, kLanes>;
 
-/// The smallest eigenvalues of positive semi-definite matrices of trace one, given the sum of the
-/// principal minors of order two and the determinant of each matrix. To the left of its smallest
-/// root, the characteristic polynomial is concave; Newton's method therefore climbs from zero to
-/// that root and never passes it.
+/// The smallest eigenvalues of positive semi-definite matrices of trace one. The input is the sum
+/// of the principal minors of order two and the determinant of each matrix. To the left of its
+/// smallest root, the characteristic polynomial is concave. Newton's method therefore climbs from
+/// zero to that root and never passes it.
 Lanes smallest_eigenvalues(const Lanes& minors, const Lanes& determinants) {
   constexpr int most_steps = 20;  // a double root takes many steps, and is then exact enough
   constexpr double least_step = 1e-15;
@@ -73,13 +73,13 @@ double principal_minors(const Eigen::Matrix3d& a) {
          a(1, 1) * a(2, 2) - a(1, 2) * a(1, 2);
 }
 
-/// The unit vector along which vectors with this scatter spread least; if they all lie on a line,
-/// any unit vector orthogonal to it.
+/// The unit vector along which vectors with this scatter spread least. If they are all on a line,
+/// it is any unit vector orthogonal to the line.
 /// @param a the scatter matrix, of trace one. @param eigenvalue its smallest eigenvalue.
 Eigen::Vector3d direction_of_least_spread(const Eigen::Matrix3d& a, double eigenvalue) {
   const Eigen::Matrix3d rest = a - eigenvalue * Eigen::Matrix3d::Identity();
-  // The direction is orthogonal to all rows of `rest`. Of the cross products of its columns, the
-  // longest has the least rounding error.
+  // The direction is orthogonal to all rows of `rest`. The longest of the cross products of its
+  // columns has the least rounding error.
   Eigen::Vector3d best = rest.col(0).cross(rest.col(1));
   for (const Eigen::Vector3d& other : {Eigen::Vector3d(rest.col(0).cross(rest.col(2))),
                                        Eigen::Vector3d(rest.col(1).cross(rest.col(2)))})

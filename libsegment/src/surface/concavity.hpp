@@ -7,17 +7,17 @@
 
 namespace ph::segment {
 
-/// The unit normal of the surface at each voxel, pointing towards the viewpoint: the direction in
-/// which the centroids within a radius spread least. NaN if fewer than three centroids are within
-/// the radius.
+/// The unit normal of the surface at each voxel, pointing towards the viewpoint. It is the
+/// direction in which the centroids within a radius spread least. It is NaN if fewer than three
+/// centroids are within the radius.
 /// @param pairs pairs of voxels, including all pairs within `radius`.
 Points surface_normals(const Points& centroids, std::span<const VoxelPair> pairs, double radius,
                        const Vec3& viewpoint);
 
-/// How steeply the surface rises from the line between two voxels: the sum of the sines of the
-/// angles between surface and line at both ends, (n_v - n_u)·(u - v)/|u - v|. It is above 0 in a
-/// valley, below 0 on a ridge, and NaN if a normal is missing. Exchanging the voxels does not
-/// change it.
+/// Measures how steeply the surface rises from the line between two voxels. The rise is the sum of
+/// the sines of the angles between surface and line at both ends, (n_v - n_u)·(u - v)/|u - v|. It
+/// is above 0 in a valley, below 0 on a ridge, and NaN if a normal is missing. It does not change
+/// if the voxels are exchanged.
 double rise(const Points& centroids, const Points& normals, const VoxelPair& pair);
 
 /// The concavity of the surface at each voxel: the mean rise over the pairs of the voxel, or 0 if
@@ -28,7 +28,7 @@ double rise(const Points& centroids, const Points& normals, const VoxelPair& pai
 std::vector<double> concavity(const Points& centroids, const Points& normals,
                               std::span<const VoxelPair> pairs);
 
-/// Replaces each value by the mean of itself and its neighbours' values.
+/// Replaces each value by the mean of the value itself and its neighbours' values.
 /// @param pairs pairs of voxels; two voxels are neighbours if their distance is below `radius`.
 std::vector<double> smoothed(const std::vector<double>& values, std::span<const VoxelPair> pairs,
                              double radius);

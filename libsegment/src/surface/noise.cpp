@@ -9,10 +9,11 @@ namespace ph::segment {
 ConcavityNoise::ConcavityNoise(const std::vector<double>& ranges,
                                const std::vector<double>& values) {
   // mutant: noise-fewest
-  constexpr std::size_t fewest = 300;  // points needed for a reliable quantile
+  // The number of points needed for a reliable quantile.
+  constexpr std::size_t fewest = 300;
   // mutant: noise-quantile
   constexpr double quantile = 0.84;  // one standard deviation up in a normal distribution
-  constexpr std::size_t most = 8;    // largest number of ranges
+  constexpr std::size_t most = 8;    // the largest number of ranges
   std::vector<NoiseAt> of;
   for (std::size_t i = 0; i < ranges.size(); ++i) of.push_back({ranges[i], values[i]});
   std::ranges::sort(of, [](const NoiseAt& a, const NoiseAt& b) {

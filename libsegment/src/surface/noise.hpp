@@ -15,7 +15,7 @@ class ConcavityNoise {
   /// @param values the concavity measured at each of these places.
   ConcavityNoise(const std::vector<double>& ranges, const std::vector<double>& values);
 
-  /// The noise at a range; a typical value if nothing was measured. It is never so small that
+  /// The noise at a range, or a typical value if nothing was measured. It is never so small that
   /// details of an object exceed it many times, nor so large that no seam stands out.
   double at(double range) const;
   /// The measured values, nearest first.

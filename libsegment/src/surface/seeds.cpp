@@ -59,15 +59,16 @@ class Cubes {
   template <class Visit>
   void for_each_near(std::uint32_t i, double radius, Visit&& visit) const {
     const double reach = std::ceil(radius / edge_);
-    // Visits all points if the search would look at as many cubes as exist. An infinite radius
-    // makes the comparison false, and all points are then visited as well.
+    // All points are visited if the search would look at as many cubes as exist. An infinite radius
+    // makes the comparison false, and all points are then also visited.
     if (!(std::pow(2 * reach + 1, 2) < static_cast<double>(cubes_.size()))) {
       for (std::uint32_t k = 0; k < points_.rows(); ++k) visit(k);
       return;
     }
     const Cube middle = cube_of(i);
     for (double z = -reach; z <= reach; ++z) {
-      for (double y = -reach; y <= reach; ++y) {  // cubes along x follow one another in the map
+      // Cubes along x follow one another in the map.
+      for (double y = -reach; y <= reach; ++y) {
         const Cube first{middle[0] + z, middle[1] + y, middle[2] - reach};
         for (auto at = cubes_.lower_bound(first); at != cubes_.end(); ++at) {
           if (at->first[0] != first[0] || at->first[1] != first[1] ||
@@ -80,7 +81,7 @@ class Cubes {
   }
 
  private:
-  using Cube = std::array<double, 3>;  // z, y, x
+  using Cube = std::array<double, 3>;  // the coordinates in the order z, y, x
   Cube cube_of(Index i) const {
     return {std::floor(points_(i, 2) / edge_), std::floor(points_(i, 1) / edge_),
             std::floor(points_(i, 0) / edge_)};
@@ -92,9 +93,9 @@ class Cubes {
 };
 
 /// Chooses seeds by the greedy permutation of the points (Gonzalez 1985) until each point has a
-/// seed within `spacing`. Each step takes the point that is farthest from all seeds; if there are
-/// several, the first of them. The new seed can become the nearest seed only of points that are
-/// nearer to it than it was to its own nearest seed.
+/// seed within `spacing`. Each step takes the point that is farthest from all seeds. If there are
+/// several such points, it takes the first of them. A point can get the new seed as its nearest
+/// seed only if it is nearer to the new seed than the new seed was to its own nearest seed.
 std::vector<std::uint32_t> spread_seeds(const Points& points, double spacing,
                                         const RunContext& context) {
   const auto size = static_cast<std::size_t>(points.rows());
@@ -150,7 +151,7 @@ std::vector<double> distance_to_seeds(const Points& centroids,
     queue.push({distance, v});
   };
   Ticker ticker(context, "distance to seeds", size);
-  const auto spread = [&] {  // Dijkstra's algorithm
+  const auto spread = [&] {  // this is Dijkstra's algorithm
     while (!queue.empty()) {
       const auto [distance, v] = queue.top();
       queue.pop();

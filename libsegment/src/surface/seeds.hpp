@@ -10,11 +10,11 @@ namespace ph::segment {
 
 /// For each voxel, the distance along the surface from the nearest of some evenly spread seeds. The
 /// seeds are a greedy permutation of the voxels, continued until each voxel has a seed within
-/// `spacing` (metres, > 0). Each connected piece without a seed gets one as well. A step through a
-/// seam counts for more than its length, by a factor that grows with the concavity; the distance
-/// therefore has a ridge where two objects meet. The cost stays well below voxels times seeds,
+/// `spacing` (metres, > 0). Each connected piece without a seed also gets one. A step through a
+/// seam counts for more than its length, by a factor that grows with the concavity. The distance
+/// therefore has a ridge where two objects meet. The cost is much less than voxels times seeds,
 /// because once the seeds are dense, a new seed is compared only with voxels near it.
-/// @param edges the edges between adjacent voxels; their values are their lengths.
+/// @param edges the edges between adjacent voxels, whose values are their lengths.
 /// @param concavity the concavity at each voxel.
 std::vector<double> distance_to_seeds(const Points& centroids,
                                       const std::vector<WeightedEdge>& edges,

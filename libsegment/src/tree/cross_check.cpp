@@ -30,7 +30,7 @@ bool same_cells(const std::optional<InputCell>& a, const std::optional<InputCell
 
 std::string cross_check(const FilteredGraph& graph, const Barcode& barcode,
                         const RunContext& context) {
-  BarcodeBuilder<FilteredGraph> bars(graph, 0, -1);  // including zero-length bars
+  BarcodeBuilder<FilteredGraph> bars(graph, 0, -1);  // this includes zero-length bars
   TwistEngine::run(graph, Z2{}, bars, context);
   const Barcode other = bars.finish();
   if (barcode.size() != other.size()) {

@@ -20,8 +20,8 @@ namespace {
 constexpr std::int64_t kMost = std::int64_t{1} << 32;  // points and vertices have 32-bit numbers
 constexpr std::size_t kWord = kTreeWord, kHeader = kTreeHeader, kSum = kTreeSum;
 
-/// The largest number of edges of a graph. `vertices` is at most 2^32 - 2; the sum of both numbers
-/// therefore fits into 63 bits.
+/// The largest number of edges of a graph. `vertices` is at most 2^32 - 2, so the sum of both
+/// numbers fits into 63 bits.
 std::int64_t most_edges(std::int64_t vertices) {
   const auto n = static_cast<std::uint64_t>(vertices);
   return n == 0 ? 0 : static_cast<std::int64_t>(n * (n - 1) / 2);
@@ -37,7 +37,7 @@ class TreeReader {
     read_header();
     require_size_and_sum();
     const auto n = static_cast<std::size_t>(vertices_);
-    // The arrays, and the memory for rebuilding the tree.
+    // This includes the arrays, and the memory for rebuilding the tree.
     constexpr std::size_t bytes_a_vertex = 400;
     input_.require_memory(input_.size() + n * bytes_a_vertex);
     read_surfaces();
@@ -59,7 +59,7 @@ class TreeReader {
       fail(what, fmt::format("{}", value), fmt::format("{} to {}", least, most));
     return value;
   }
-  /// A number from `least` to `most`; infinite bounds are left out of the message.
+  /// A number from `least` to `most`. Infinite bounds are left out of the message.
   double number(const char* what, double least = -kInfinity, double most = kInfinity,
                 bool infinite = false) {
     at_ = cursor_.offset();
@@ -100,7 +100,8 @@ class TreeReader {
     scene_.distance = number("distance", 0);
     scene_.steps = static_cast<int>(integer("steps", 0, most_steps));
     const bool has_plane = integer("plane", 0, 1) == 1;
-    const double end = has_plane ? kInfinity : 0;  // without a plane, its numbers are zeros
+    // Without a plane, the numbers of the plane are zeros.
+    const double end = has_plane ? kInfinity : 0;
     Plane plane;
     for (double& n : plane.normal) n = number("normal of the plane", -end, end);
     if (has_plane) require_unit("normal of the plane", plane.normal);
@@ -144,7 +145,7 @@ class TreeReader {
   }
 
   /// Checks the size of the file and its checksum before anything is allocated. No product
-  /// overflows: the factors are below 2^33, and the product of width and height is checked before
+  /// overflows. The factors are below 2^33, and the product of width and height is checked before
   /// it is multiplied again.
   void require_size_and_sum() {
     const auto cloud = checked_product(static_cast<std::size_t>(scene_.width),
@@ -152,7 +153,7 @@ class TreeReader {
     at_ = 3 * kWord;
     if (!cloud || *cloud > static_cast<std::size_t>(kMost))
       fail("width times height", "more than 2^32", "at most 2^32");
-    const std::size_t vectors = scene_.method != Method::paper ? 3 : 2;  // with normals: 3
+    const std::size_t vectors = scene_.method != Method::paper ? 3 : 2;  // 3 with normals
     const std::size_t expected = kHeader + static_cast<std::size_t>(surfaces_) * kTreeSurface +
                                  static_cast<std::size_t>(noise_) * kTreeNoise +
                                  static_cast<std::size_t>(vertices_) * (3 * vectors + 2) * kWord +
@@ -310,9 +311,10 @@ class TreeReader {
         removed, [&](const SceneSurface& s) { return is_in_strip(s.plane, point, centroid(v)); });
   }
   /// True if the point may be in the strip of the plane below a voxel. The margin of the plane is
-  /// not stored in the tree; it is only known that the voxel lies beyond the margin.
+  /// not stored in the tree. It is only known that the voxel is beyond the margin.
   bool is_in_strip(const Plane& plane, const Vec3& point, const Vec3& of_voxel) const {
-    constexpr double aside = 3, up = 4;  // in voxels; as a multiple of the voxel's height
+    // `aside` is in voxels, and `up` is a multiple of the voxel's height.
+    constexpr double aside = 3, up = 4;
     const double height = plane.signed_distance(point[0], point[1], point[2]);
     const double voxel_height = plane.signed_distance(of_voxel[0], of_voxel[1], of_voxel[2]);
     if (!(height > 0 && height <= up * (voxel_height + scene_.voxel))) return false;
@@ -336,7 +338,7 @@ class TreeReader {
   const Input& input_;
   BinaryCursor cursor_;
   SceneTree scene_;
-  std::size_t at_ = 0;  // place of the current value
+  std::size_t at_ = 0;  // the place of the current value
   std::int64_t vertices_ = 0, merges_ = 0, points_ = 0, surfaces_ = 0, noise_ = 0;
 };
 

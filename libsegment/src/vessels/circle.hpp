@@ -18,14 +18,14 @@ inline constexpr std::size_t kSectors = 36;
 using Sectors = std::bitset<kSectors>;
 
 /// Fits a circle by least squares of |p|² = 2 c·p + (r² - |c|²) (I. Kåsa, A circle fitting
-/// procedure and its error analysis, 1976). Each set of points has the same weight. @pre no set is
-/// empty.
+/// procedure and its error analysis, 1976). Each set of points has the same weight. Precondition:
+/// no set is empty.
 Circle fit_circle(std::initializer_list<const std::vector<Eigen::Vector2d>*> sets);
 
 /// The root of the mean of the squares of the distances from a circle.
 double deviation(const Circle& circle, const std::vector<Eigen::Vector2d>& points);
 
-/// The sectors, as seen from the centre, that contain points.
+/// The sectors, seen from the centre, that contain points.
 Sectors sectors_of(const Circle& circle, const std::vector<Eigen::Vector2d>& points);
 
 }  // namespace ph::segment

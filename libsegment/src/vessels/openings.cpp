@@ -44,17 +44,18 @@ Circle fit_without_outliers(std::vector<Eigen::Vector2d>& points, double voxel) 
   return circle;
 }
 
-/// The opening of an object; empty if its upper end is not a round rim.
-/// @param object the voxels of the object: x and y along the plane, z above it. @param numbers the
-/// numbers of these voxels in the grid.
+/// The opening of an object. Empty if the upper end of the object is not a round rim.
+/// @param object the voxels of the object, with x and y along the plane and z above it. @param
+/// numbers the numbers of these voxels in the grid.
 std::optional<Opening> opening_of(const std::vector<Eigen::Vector3d>& object,
                                   const std::vector<std::uint32_t>& numbers, double voxel) {
-  constexpr std::size_t fewest = 20;                  // fewest voxels of a rim
-  constexpr double depth = 3;                         // voxels
-  constexpr double of_voxel = 1.6, of_radius = 0.12;  // how far a rim may deviate from its circle
+  constexpr std::size_t fewest = 20;  // the fewest voxels of a rim
+  constexpr double depth = 3;         // in voxels
+  // The limits for the deviation of a rim from its circle.
+  constexpr double of_voxel = 1.6, of_radius = 0.12;
   constexpr double least_radius = 0.02, most_radius = 0.25;
   // mutant: opening-sectors
-  constexpr std::size_t fewest_sectors = 20;             // of 36
+  constexpr std::size_t fewest_sectors = 20;             // out of 36 sectors
   constexpr double middle = 0.6, most_in_middle = 0.03;  // mutant: opening-middle
   const auto [top, upper] = upper_end_of(object, depth * voxel);
   if (upper.size() < fewest) return std::nullopt;
@@ -82,7 +83,7 @@ std::optional<Opening> opening_of(const std::vector<Eigen::Vector3d>& object,
 
 bool may_be_in_opening(const Plane& plane, const Vec3& point, const Vec3& voxel) {
   // mutant: opening-bottom
-  constexpr double below = 0.05, reach = 0.5;  // metres
+  constexpr double below = 0.05, reach = 0.5;  // in metres
   const double height = plane.signed_distance(point[0], point[1], point[2]);
   return height >= -below && height <= plane.signed_distance(voxel[0], voxel[1], voxel[2]) &&
          std::hypot(point[0] - voxel[0], point[1] - voxel[1], point[2] - voxel[2]) <= reach;
@@ -92,7 +93,8 @@ void assign_points_in_openings(const CloudView& cloud, const std::vector<Index>&
                                const Plane& plane, double voxel,
                                const std::vector<Index>& object_of, Index min_size,
                                std::vector<Index>& points, VoxelGrid& grid) {
-  // A share of the radius; it is slightly less than 1, because the points of a rim are blurred.
+  // This is a share of the radius. It is slightly less than 1, because the points of a rim are
+  // blurred.
   constexpr double of_radius = 0.97;
   const Eigen::Matrix3d turn = upright(plane.normal);
   const auto above = [&](const Eigen::Vector3d& p) -> Eigen::Vector3d {
@@ -125,11 +127,13 @@ void assign_points_in_openings(const CloudView& cloud, const std::vector<Index>&
     const Eigen::Vector3d p = above({q[0], q[1], q[2]});
     for (const Opening& opening : openings) {
       if (p.z() >= opening.height) continue;
-      const auto from_axis = [&](double height) {  // where the point's ray is at this height
+      // This is the distance from the axis of the point's ray at a given height.
+      const auto from_axis = [&](double height) {
         const double t = (eye.z() - height) / (eye.z() - p.z());
         return ((eye + t * (p - eye)).head<2>() - opening.circle.centre).norm();
       };
-      // The ray enters through the opening and does not leave through a gap in the wall.
+      // This checks that the ray enters through the opening and does not leave through a gap in the
+      // wall.
       // mutant: opening-gaps
       if (from_axis(opening.height) >= of_radius * opening.circle.radius ||
           from_axis(std::max(p.z(), 0.0)) >= opening.circle.radius ||

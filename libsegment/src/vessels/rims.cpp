@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::size_t kFewestOfEach = 9;  // sectors
 
-/// The sectors of the circle in which a rim has points; empty if the rim is not on the circle.
+/// The sectors of the circle in which a rim has points. Empty if the rim is not on the circle.
 std::optional<Sectors> arc(const Circle& circle, const UpperEnd& rim, double tolerance) {
   // The comparison is not written as "larger than", because a circle through points on a line is
   // NaN.
@@ -52,13 +52,13 @@ void join_around_rims(const Points& centroids, double voxel, const Vec3& up, con
   std::vector<PartBox<2>> boxes;
   for (std::uint32_t p = 0; p < points.size(); ++p) {
     rims.push_back(upper_end_of(points[p], depth * voxel));
-    // With so few points, too many sectors are empty.
+    // With fewer points, too many sectors are empty.
     if (rims[p].points.size() < kFewestOfEach) continue;
     boxes.push_back({p, {}});
     for (const Eigen::Vector2d& point : rims[p].points) boxes.back().box.extend(point);
   }
-  // An arc of so many sectors is longer than a third of the circle's diameter; the other rim on the
-  // circle is therefore never farther away than this.
+  // An arc of this many sectors is longer than a third of the circle's diameter. The other rim on
+  // the circle is therefore never farther away than this.
   const auto reach = [](const PartBox<2>& b) { return 4 * b.box.diagonal().norm(); };
   for_each_close_pair(boxes, reach, context, [&](std::uint32_t p, std::uint32_t q) {
     if (share_a_rim(rims[p], rims[q], voxel)) join(p, q);

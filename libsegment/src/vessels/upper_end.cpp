@@ -17,7 +17,8 @@ Eigen::Matrix3d upright(const Vec3& up) {
 }
 
 UpperEnd upper_end_of(const std::vector<Eigen::Vector3d>& points, double depth) {
-  constexpr std::size_t outliers = 50;  // one point in this many may be higher
+  // One point in this many may be higher than the upper end.
+  constexpr std::size_t outliers = 50;
   std::vector<double> heights;
   for (const auto& p : points) heights.push_back(p.z());
   const auto top = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / outliers);

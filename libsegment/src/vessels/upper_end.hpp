@@ -7,19 +7,21 @@
 
 namespace ph::segment {
 
-/// The rotation that turns `up`, a unit vector, into the z axis; the directions of x and y are
+/// The rotation that turns `up`, a unit vector, into the z axis. The directions of x and y are
 /// arbitrary.
 Eigen::Matrix3d upright(const Vec3& up);
 
 /// The upper end of an object, seen from above.
 struct UpperEnd {
-  /// The height of the upper end; one point in fifty may be higher.
+  /// The height of the upper end. One point in fifty may be higher.
   double top = 0;
-  std::vector<Eigen::Vector2d> points;  ///< x, y of the points less than a depth below the top
+  /// X and y of the points less than a depth below the top.
+  std::vector<Eigen::Vector2d> points;
 };
 
-/// Finds the upper end of an object. @param points its points, upright, in metres; at least one.
-/// @param depth of the upper end, metres.
+/// Finds the upper end of an object. @param points the points of the object, upright, in metres; at
+/// least one.
+/// @param depth the depth of the upper end, in metres.
 UpperEnd upper_end_of(const std::vector<Eigen::Vector3d>& points, double depth);
 
 }  // namespace ph::segment

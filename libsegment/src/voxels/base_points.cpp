@@ -13,8 +13,8 @@ namespace ph::segment {
 namespace {
 
 /// The plane divided into squares. The coordinates of a square may be any whole numbers, and no two
-/// squares may have the same name, however far apart. Columns and rows are therefore numbered in
-/// order of appearance.
+/// squares may have the same name, even if they are far apart. Columns and rows are therefore
+/// numbered in order of appearance.
 class Squares {
  public:
   Squares(const Plane& plane, double side)
@@ -59,7 +59,8 @@ struct Wall {
 void assign_base_points(const CloudView& cloud, const std::vector<Index>& strip, const Plane& plane,
                         const PlaneMargin& margin, double side, std::vector<Index>& points,
                         VoxelGrid& grid) {
-  constexpr double squares_up = 2;  // how far beyond the margin a wall may begin, in squares
+  // The distance beyond the margin at which a wall may begin, in squares.
+  constexpr double squares_up = 2;
   const auto point = [&](Index i) { return cloud.point(static_cast<std::size_t>(i)); };
   Squares square(plane, side);
   FlatMap<Wall> walls(std::pmr::get_default_resource());

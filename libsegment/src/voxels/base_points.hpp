@@ -7,13 +7,13 @@
 
 namespace ph::segment {
 
-/// Wins back the base of each object, that is, the strip of it that lies within the margin of the
-/// plane and was therefore taken for the plane. If, over a small square of the plane, the lowest
-/// point beyond the margin is just beyond it, the points of the strip over the same square join
-/// this point's voxel. A wall has such a point; the free plane beside it has none. Centroids and
-/// counts of the voxels do not change.
-/// @param strip the points within the margin. @param side of a square, metres.
-/// @param points the points in the grid, which lie beyond the margin or behind the plane; the
+/// Wins back the base of each object. The base is the strip of the object that is within the margin
+/// of the plane and was therefore taken for the plane. If the lowest point beyond the margin over a
+/// small square of the plane is just beyond the margin, the points of the strip over the same
+/// square join this point's voxel. A wall has a lowest point just beyond the margin. The free plane
+/// beside it has no such point. Centroids and counts of the voxels do not change.
+/// @param strip the points within the margin. @param side the side of a square, in metres.
+/// @param points the points in the grid, which are beyond the margin or behind the plane. The
 /// points of the bases are appended.
 void assign_base_points(const CloudView& cloud, const std::vector<Index>& strip, const Plane& plane,
                         const PlaneMargin& margin, double side, std::vector<Index>& points,

@@ -12,7 +12,7 @@
 namespace ph::segment {
 namespace {
 
-/// The values of `filtration_value` for lengths up to `distance`, if they are few.
+/// The values of `filtration_value` for lengths up to `distance`, if there are few of them.
 class Levels {
  public:
   Levels(double distance, int steps) {
@@ -22,12 +22,12 @@ class Levels {
     for (int k = 0; k < steps; ++k) values_.push_back(k * distance / steps);
     values_.push_back(distance);
   }
-  // The number of levels; 0 if there are too many, or if lengths are exact.
+  // The number of levels, or 0 if there are too many levels or if lengths are exact.
   std::size_t size() const { return values_.size(); }
   double operator[](std::size_t k) const { return values_[k]; }
   /// The first level that is not below a length.
   std::uint32_t above(double length) const {
-    // Rounding may miss the level by one: check the neighbours as well.
+    // Rounding may miss the level by one. The neighbouring levels are therefore checked as well.
     auto k = std::min(static_cast<std::size_t>(length * per_length_), values_.size() - 1);
     while (k > 0 && values_[k - 1] >= length) --k;
     while (values_[k] < length) ++k;
@@ -41,7 +41,7 @@ class Levels {
 
 using Edges = std::pmr::vector<WeightedEdge>;
 
-// Edges per voxel of a surface, if edges span two voxels.
+// The number of edges per voxel of a surface, if edges span two voxels.
 constexpr std::size_t kEdgesOfAVoxel = 12;
 
 Edges edges_with_values(const Points& points, double distance, int steps,
@@ -94,7 +94,8 @@ FilteredGraph rips_graph(const Points& points, double distance, int steps,
 double filtration_value(double length, double distance, int steps) {
   if (steps == 0 || length == 0) return length;
   const auto level = [&](double k) { return k == steps ? distance : k * distance / steps; };
-  // The division may round to the wrong side of a level: check the neighbours as well.
+  // The division may round to the wrong side of a level. The neighbouring levels are therefore
+  // checked as well.
   double k = std::clamp(std::ceil(length / distance * steps), 1.0, static_cast<double>(steps));
   while (k > 1 && level(k - 1) >= length) --k;
   while (k < steps && level(k) < length) ++k;

@@ -20,7 +20,7 @@ namespace {
 // of one centimetre. The sum of two billion offsets still fits into 63 bits.
 constexpr double kUnits = 4294967296.0;
 
-/// One occupied voxel. Grid coordinates are whole numbers stored as doubles: they cannot overflow.
+/// One occupied voxel. Grid coordinates are whole numbers stored as doubles, which cannot overflow.
 struct Voxel {
   double x, y, z;
   std::int64_t sum_x = 0, sum_y = 0, sum_z = 0;
@@ -37,7 +37,7 @@ struct Voxel {
 
 /// A hash table with open addressing and linear probing. Its load stays below a quarter, because
 /// the branch at the second probe is unpredictable. A FlatMap would also store the key, which is
-/// three doubles that the voxel already has; a slot of this table takes 4 bytes.
+/// three doubles that the voxel already has. A slot of this table takes 4 bytes.
 class VoxelTable {
  public:
   VoxelTable() : slots_(kFirstCapacity, kEmpty) {}
@@ -109,7 +109,7 @@ std::vector<std::uint32_t> in_order_of_grid(const std::vector<Voxel>& voxels) {
     size[axis++] = most.*member - least.*member + 1;
   }
   // The cells of the box around all voxels are numbered. With 2^52 added, the last bits of the
-  // double are this number, as the radix sort needs.
+  // double are this number, which the radix sort needs.
   constexpr double whole = 1ULL << 52;
   if (size[0] * size[1] * size[2] < whole) {
     std::vector<double> place;
@@ -126,13 +126,13 @@ std::vector<std::uint32_t> in_order_of_grid(const std::vector<Voxel>& voxels) {
   return order;
 }
 
-/// An offset inside a voxel, 0 <= units <= 1, as a whole number; fractions of a unit are dropped.
+/// An offset inside a voxel, 0 <= units <= 1, as a whole number. Fractions of a unit are dropped.
 std::int64_t fixed_point(double units) { return static_cast<std::int64_t>(units * kUnits); }
 
-/// The position of a point: its cell, and the offset inside it.
+/// The position of a point, which consists of its cell and the offset inside the cell.
 struct Located {
   double cx, cy, cz;
-  double x, y, z;  // 0 to 1
+  double x, y, z;  // from 0 to 1
 };
 
 Located locate(const float* p, double voxel) {
@@ -148,8 +148,8 @@ VoxelGrid voxel_grid(const CloudView& cloud, const std::vector<Index>& points, d
   grid.voxel_of.resize(points.size());
   VoxelTable table;
   std::uint32_t number = 0;  // neighbours in the list are often neighbours in space
-  // Works in batches: the cells of the next points are computed while the unpredictable lookup of
-  // the last one is still unresolved.
+  // The loop works in batches. The cells of the next points are computed while the unpredictable
+  // lookup of the last point is still unresolved.
   std::array<Located, 64> located;
   for (std::size_t first = 0; first < points.size(); first += located.size()) {
     const std::size_t count = std::min(located.size(), points.size() - first);

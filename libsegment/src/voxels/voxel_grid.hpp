@@ -9,15 +9,18 @@ namespace ph::segment {
 /// The occupied voxels of a grid with a corner at the origin, in the order of their coordinates (z
 /// slowest).
 struct VoxelGrid {
-  std::vector<Vec3> cells;              ///< for each voxel its corner in voxels, whole numbers
+  /// For each voxel, its corner in units of voxels, as whole numbers.
+  std::vector<Vec3> cells;
   Points centroids;                     ///< mean of the points of each voxel, one per row, metres
   std::vector<Index> counts;            ///< number of points in each voxel
   std::vector<std::uint32_t> voxel_of;  ///< the voxel of each inserted point, in their order
 };
 
-/// Sorts points into cubes with edge `voxel`. O(points + voxels log voxels). The result depends on
-/// the set of points alone, to the last bit, because offsets inside a voxel are added as integers.
-/// @param points indices into the cloud, without holes. @param voxel edge of a cube, metres, > 0.
+/// Sorts points into cubes with edge `voxel`. Takes O(points + voxels log voxels) time. The result
+/// depends only on the set of points, to the last bit, because offsets inside a voxel are added as
+/// integers.
+/// @param points indices into the cloud, without holes. @param voxel the edge of a cube, in metres,
+/// > 0.
 /// @throws Error (usage) if `voxel` is too small for coordinates of this size.
 VoxelGrid voxel_grid(const CloudView& cloud, const std::vector<Index>& points, double voxel);
 
@@ -29,7 +32,7 @@ inline constexpr double kLeastVoxel = 1e-30, kMostVoxel = 1e30;
 inline constexpr double kMostExactCell = 1ULL << 52;
 
 /// Checks that neighbouring cells have different coordinates, as a search for neighbours needs.
-/// @throws Error (usage) if a voxel lies beyond kMostExactCell; the message names it.
+/// @throws Error (usage), which names a voxel that is beyond kMostExactCell.
 void require_exact_cells(const VoxelGrid& grid, double voxel);
 
 }  // namespace ph::segment

@@ -9,7 +9,7 @@
 namespace ph::segment {
 namespace {
 
-/// Consecutive voxels of the grid that differ in x alone.
+/// Consecutive voxels of the grid that differ only in x.
 struct VoxelRow {
   double y, z;  // in voxels
   std::uint32_t begin, end;
@@ -25,13 +25,14 @@ std::vector<VoxelRow> rows_of(const VoxelGrid& grid) {
   return rows;
 }
 
-/// The offset of a row from the row that searches for pairs; it leads to an earlier row or to the
-/// row itself. The rows search in the order of the grid, and at each offset they meet the other
-/// rows in the same order. It is therefore enough to move `next` forward.
+/// The offset of a row from the row that searches for pairs. The offset leads to an earlier row or
+/// to the row itself. The rows search in the order of the grid, and at each offset they meet the
+/// other rows in the same order. It is therefore enough to move `next` forward.
 struct Offset {
   double y, z;
-  double reach;          // how far along x a near voxel of the other row can be
-  std::size_t next = 0;  // index of the next row at this offset
+  // The distance along x up to which a voxel of the other row can be near.
+  double reach;
+  std::size_t next = 0;  // the index of the next row at this offset
 };
 
 std::vector<Offset> offsets_within(double radius) {
@@ -57,7 +58,7 @@ bool comes_before(const VoxelRow& row, double y, double z) {
 
 /// The data of a voxel that the search reads, stored together.
 struct Place {
-  double x, y, z;  // centroid
+  double x, y, z;  // the centroid
   double cell;     // the voxel's coordinate along x, in voxels
 };
 
@@ -86,8 +87,8 @@ VoxelPair* write_pairs(const std::vector<Place>& places, const VoxelRow& row, co
       const Place& q = places[u];
       const double x = p.x - q.x, y = p.y - q.y, z = p.z - q.z;
       const double square = x * x + y * y + z * z;
-      // Branchless, because the branch would be unpredictable: always writes the pair, but advances
-      // only if it is near.
+      // This avoids a branch, which would be unpredictable. The pair is always written, but the end
+      // advances only if the pair is near.
       *to = {u, v, std::sqrt(static_cast<float>(square))};
       to += square < square_of_radius ? 1 : 0;
     }
@@ -99,7 +100,7 @@ VoxelPair* write_pairs(const std::vector<Place>& places, const VoxelRow& row, co
 
 VoxelPairs close_voxels(const VoxelGrid& grid, double voxel, double reach,
                         const RunContext& context) {
-  // Larger coordinates could give a row and the next one the same number, and the search would not
+  // Larger coordinates could give a row and the next row the same number, and the search would not
   // end.
   require_exact_cells(grid, voxel);
   const std::vector<VoxelRow> rows = rows_of(grid);
@@ -107,8 +108,8 @@ VoxelPairs close_voxels(const VoxelGrid& grid, double voxel, double reach,
   std::vector<Offset> offsets = offsets_within(reach);
   const double square_of_radius = std::pow(reach * voxel, 2);
   VoxelPairs pairs(&context.memory);
-  // Reserves room for the pairs on a curved surface: half of the disk around each voxel, and a
-  // third more. Growing the list would copy all pairs and touch three times the memory.
+  // This reserves room for the pairs on a curved surface: half of the disk around each voxel, and a
+  // third more. Growing the list would copy all pairs and use three times the memory.
   const double disk = 4.0 / 3 * std::numbers::pi * reach * reach;
   pairs.reserve(static_cast<std::size_t>(disk / 2 * static_cast<double>(grid.cells.size())));
   const auto most_of_voxel = static_cast<std::size_t>(2 * std::ceil(reach) + 1);

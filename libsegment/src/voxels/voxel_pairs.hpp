@@ -16,22 +16,22 @@ namespace ph::segment {
 /// Two voxels near each other.
 struct VoxelPair {
   std::uint32_t u, v;  ///< u < v
-  float distance;      ///< distance of their centroids, metres
+  float distance;      ///< the distance of their centroids, in metres
 };
 
 using VoxelPairs = RawVector<VoxelPair>;
 
 /// All pairs of voxels whose centroids are closer than a number of voxels, in an order that depends
-/// on the voxels alone. O(rows * reach^2 + pairs), without a tree or a hash.
-/// @param voxel edge of a voxel of the grid, metres. @param reach the number of voxels, > 0; it
-/// must be small, because the search visits all offsets within it. @throws Error (usage) like
+/// only on the voxels. Takes O(rows * reach^2 + pairs) time, and needs no tree or hash.
+/// @param voxel the edge of a voxel of the grid, in metres. @param reach the number of voxels, > 0.
+/// It must be small, because the search visits all offsets within it. @throws Error (usage) like
 /// require_exact_cells; Error (resource, cancelled).
 VoxelPairs close_voxels(const VoxelGrid& grid, double voxel, double reach,
                         const RunContext& context = default_context());
 
-/// Calls `use` for the pairs with a distance below `radius`, in their order. Selects them in
-/// batches, because their distances are unpredictable: a branch per pair would be mispredicted
-/// every third time.
+/// Calls `use` for the pairs with a distance below `radius`, in their order. The function selects
+/// the pairs in batches, because their distances are unpredictable. A branch for each pair would be
+/// mispredicted every third time.
 template <class Use>
 void for_each_within(std::span<const VoxelPair> pairs, double radius, Use&& use) {
   constexpr std::size_t some = 256;
