@@ -23,8 +23,8 @@
 namespace ph::barcode {
 namespace {
 
-/// Refuses a format that has no room for the requested results: only JSON and the report hold
-/// representatives, and only JSON holds loops.
+/// Refuses a format that has no room for the requested results. Only JSON and the report can
+/// contain representatives, and only JSON can contain loops.
 /// @throws Error (usage).
 void require_room(BarcodeFormat format, const Job& job) {
   if (!job.results.dry_run) require_significance(format, job);
@@ -42,7 +42,7 @@ void require_room(BarcodeFormat format, const Job& job) {
                           barcode_format_name(format)));
 }
 
-/// The input and the output files of one of several inputs; the folders and patterns of the job
+/// The input and the output files of one of several inputs. The folders and patterns of the job
 /// determine the files.
 Places places_of(const std::string& input, const std::string& name, const Job& job,
                  BarcodeFormat format) {
@@ -58,7 +58,7 @@ Places places_of(const std::string& input, const std::string& name, const Job& j
   return places;
 }
 
-/// For each input of the job: the input and its output files.
+/// For each input of the job, the input and its output files.
 std::vector<Places> places_of(const Job& job, const std::vector<std::string>& inputs,
                               BarcodeFormat format) {
   if (!job.is_batch()) {
@@ -142,7 +142,7 @@ void explain_unwritten(const Job& job, BarcodeFormat format, app::Session& sessi
     const Options& options = job.question.options;
     if (options.min_persistence > 0) unwritten.emplace_back("--min-persistence");
     if (job.results.loops) unwritten.emplace_back("--loops");
-    // These options affect the memory that bars take; for example, JSON needs the cells of bars.
+    // These options affect the memory that bars take. For example, JSON needs the cells of bars.
     if (job.results.output_format)
       estimated.push_back(fmt::format("--output-format {}", barcode_format_name(format)));
     if (options.min_dim > 0) estimated.emplace_back("--min-dim");
@@ -177,7 +177,7 @@ void explain_unseen_bars(const Job& job, BarcodeFormat format, app::Session& ses
                              fmt::join(given, ", ")));
 }
 
-/// Runs one of several inputs and writes one line to stderr, whatever the outcome. @return the exit
+/// Runs one of several inputs, and writes one line to stderr for any outcome. @return the exit
 /// code.
 /// @throws Error if the other inputs need not be tried.
 int run_one(const Job& job, app::Session& session) {
@@ -206,8 +206,8 @@ BarcodeFormat output_format(const Job& job, app::Session& session) {
                 fmt::format("--output: found '{0}', expected a barcode; --plot {0} draws it, "
                             "--output-format NAME writes another format there",
                             printable(job.places.output)));
-  // If several inputs only get pictures, reports or surfaces, their barcodes are not printed as
-  // well.
+  // If only pictures, reports or surfaces are written for several inputs, their barcodes are not
+  // printed in addition.
   const bool has_others =
       !job.places.plots.empty() || !job.places.report.empty() || !job.places.surfaces.empty();
   if (job.is_batch() && job.places.output == "-" && has_others) return BarcodeFormat::none;

@@ -14,8 +14,8 @@ namespace ph::barcode {
 /// picture.
 BarcodeFormat output_format(const Job& job, app::Session& session);
 
-/// Runs the job for all inputs. With an output folder, an input that fails does not stop the
-/// others: its error is printed to stderr, and the exit code of the first failure is returned at
+/// Runs the job for all inputs. With an output folder, an input that fails does not stop the other
+/// inputs. Its error is printed to stderr, and the exit code of the first failure is returned at
 /// the end.
 int run_all(const Job& job, app::Session& session);
 
@@ -24,18 +24,20 @@ int run_all(const Job& job, app::Session& session);
 /// @throws Error.
 int run_part(const Job& job, app::Session& session);
 
-/// Joins the inputs, which are parts. @return the exit code. @throws Error.
+/// Joins the inputs, all of which are parts. @return the exit code. @throws Error.
 int run_join(const Job& job, BarcodeFormat format, app::Session& session);
 
 /// Computes the barcodes of the inputs that belong to one part, and writes the part. An input that
-/// fails does not stop the others: the part records its failure. Precondition: job.sharing.part.
+/// fails does not stop the other inputs. The part records the failure. Precondition:
+/// job.sharing.part is set.
 Outcome run_batch_part(const std::vector<std::string>& inputs, const Job& job,
                        app::Session& session);
 
 /// Joins parts of a batch and writes one table, `input,dim,birth,death`, or one part.
-/// @return an outcome with the exit code of the first input that failed, if any did; the table is
-/// written in any case.
-/// @throws Error (bad_data) naming the files, if parts do not belong together or some are missing.
+/// @return an outcome with the exit code of the first input that failed, if any input failed. The
+/// table is written in any case.
+/// @throws Error (bad_data), which names the files, if parts do not belong together or some are
+/// missing.
 Outcome join_batch_parts(const std::vector<PartFile>& files, const Places& places,
                          app::Session& session);
 

@@ -9,7 +9,7 @@
 namespace ph::barcode {
 namespace {
 
-// The formats that ph-barcode reads, compressed or not; a folder may also hold other files.
+// The formats that ph-barcode reads, compressed or not. A folder may also contain other files.
 constexpr std::array<std::string_view, 26> kExtensions{
     ".csv",  ".tsv", ".txt",       ".dat",    ".xyz", ".xyzrgb",  ".pts", ".npy",   ".npz",
     ".png",  ".pgm", ".nii",       ".off",    ".ply", ".pcd",     ".bin", ".dipha", ".complex",

@@ -69,7 +69,7 @@ bool is_there(const std::string& path, const InputsPart::Whole& whole, int part,
   return kept.has_value();
 }
 
-/// The exit code of the first input that failed; kOk if none did.
+/// The exit code of the first input that failed, or kOk if no input failed.
 int code_of(std::span<const InputsPart::Result> results) {
   const auto failed =
       std::ranges::find_if(results, [](const auto& r) { return r.code != app::kOk; });
@@ -92,7 +92,8 @@ Outcome run_batch_part(const std::vector<std::string>& inputs, const Job& job,
     if (InputsPart::part_of(i, parts) == part) own.push_back(inputs[i]);
   if (job.sharing.resumes && is_there(path, whole, part, own, session))
     return {app::kOk, fmt::format("{}: it is there already", path)};
-  app::Output output(path);  // opened first, so that a failure to create it is reported early
+  // The file is opened first, so that a failure to create it is reported early.
+  app::Output output(path);
   InputsPart done(whole, part);
   Job own_job = job;
   for (std::size_t i = 0; i < inputs.size(); ++i)

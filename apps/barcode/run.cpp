@@ -63,8 +63,8 @@ void explain_slabs(const BuiltComplex& built, const RunPlan& plan, const Job& jo
 }
 
 /// Draws the plots of the merge tree, in the order of the plots. They are drawn before the bars are
-/// computed, because a missing tree should be reported before a long computation. @throws Error
-/// (usage) if there is no tree.
+/// computed, because a missing tree should be reported before a long computation.
+/// @throws Error (usage) if there is no tree.
 std::vector<std::string> pictures_of_tree(const Loaded& loaded, const Job& job,
                                           const RunContext& context) {
   const auto tree = in_name_of(loaded.name, [&] { return tree_of(loaded.built, context); });
@@ -86,14 +86,14 @@ std::vector<std::string> pictures_of_tree(const Loaded& loaded, const Job& job,
   return pictures;
 }
 
-/// True if bars of H1 get loops: only JSON has room for them.
+/// True if bars of H1 get loops. Only JSON has room for loops.
 bool writes_loops(const Job& job) {
   const Representatives kind = job.question.options.representatives;
   return job.places.format == BarcodeFormat::json && job.results.loops != LoopChoice::none &&
          (kind == Representatives::cycles || kind == Representatives::voxels);
 }
 
-/// To be called before the computation. @throws Error (usage) if loops are requested that cannot be
+/// Must be called before the computation. @throws Error (usage) if the requested loops cannot be
 /// computed.
 void require_loops(const BuiltComplex& built, const Job& job) {
   if (!job.results.loops || *job.results.loops == LoopChoice::none) return;
@@ -117,14 +117,15 @@ struct Result {
   int code = app::kOk;
 };
 
-/// One run, stage by stage: open, load, plan, compute, check, write.
+/// One run, in stages: open, load, plan, compute, check, write.
 class Run {
  public:
   Run(const Job& job, app::Session& session) : job_(job), session_(session) {}
 
   /// @throws Error.
   Outcome operator()() {
-    std::optional<Outputs> outputs;  // opened early, to report a file that cannot be created
+    // Opened early, to report a file that cannot be created.
+    std::optional<Outputs> outputs;
     if (!job_.results.dry_run) outputs.emplace(job_.places);
     std::optional<Input> input(open());
     if (is_stored_) return run_stored(job_, *input, *outputs, session_);
@@ -143,8 +144,7 @@ class Run {
     return write(loaded, plan, std::move(result), trees, *outputs);
   }
 
-  /// True once it is known that the input is a barcode that was computed
-  /// earlier.
+  /// True once it is known that the input is a barcode that was computed earlier.
   bool is_stored() const { return is_stored_; }
 
  private:
@@ -165,7 +165,7 @@ class Run {
       throw Error(ErrorKind::bad_data,
                   fmt::format("{}: found a barcode, expected data", mark_place(input.name())));
     app::require_in_scope(job_.given, kBarcode,
-                          name_of(kBarcode));  // also refuses --dry-run
+                          name_of(kBarcode));  // this also refuses --dry-run
     return input;
   }
 
@@ -179,7 +179,7 @@ class Run {
     take_facts(loaded, estimated.built);
     explain_slabs(loaded.built, estimated, job_, session_);
     const app::BarHold results_are_written(session_);
-    // Only the estimate may have listed the edges; in that case they are added to the memory that
+    // Only the estimate may have listed the edges. In this case, they are added to the memory that
     // was taken before.
     const double held = estimated.built.edges ? estimated.bytes_held : 0;
     write_file("-", estimate_text(estimated, loaded.built, loaded.description, taken + held));
@@ -218,15 +218,15 @@ class Run {
     return plan;
   }
 
-  /// Reports the facts about the complex that are known once it is built.
+  /// Reports the facts about the complex that are known only after it is built.
   void take_facts(Loaded& loaded, const RunFacts& facts) {
     barcode::take_facts(loaded.built, facts);
     promise_ = promise_of(loaded.built, facts);
     if (promise_) session_.note(fmt::format("{}: {}", loaded.name, *promise_));
   }
 
-  /// Frees the data if the complex alone is enough: no output shows the data, and neither --check
-  /// nor the computation uses them.
+  /// Frees the data if the complex alone is enough. This is the case if no output shows the data,
+  /// and neither --check nor the computation uses them.
   void give_back_data(Loaded& loaded, const RunPlan& plan) const {
     if (!job_.places.report.empty() || job_.results.check || plan.form == RipsForm::points) return;
     if (auto* rips = std::get_if<Rips>(&loaded.built.complex)) rips->forget_input();
@@ -252,7 +252,7 @@ class Run {
     return result;
   }
 
-  /// Compares the bars with the oracle's, over all edges of a Rips filtration.
+  /// Compares the bars with the bars of the oracle, over all edges of a Rips filtration.
   void check(const Loaded& loaded, RunPlan plan, Result& result) {
     const std::string_view engine = plan.options.engine.name();
     plan.options.engine = Engine::standard;
@@ -336,8 +336,9 @@ class Run {
   const Job& job_;
   app::Session& session_;
   Stopwatch watch_;
-  std::optional<app::BarHold> typing_;  // no progress bar while somebody types the input
-  std::optional<std::string> promise_;  // accuracy of an approximation
+  // No progress bar is drawn while somebody types the input.
+  std::optional<app::BarHold> typing_;
+  std::optional<std::string> promise_;  // the accuracy of an approximation
   bool is_stored_ = false;
 };
 
@@ -354,7 +355,7 @@ Outcome run(const Job& job, app::Session& session) {
   } catch (const std::bad_alloc&) {
     what = "out of memory";
   }
-  // By now, everything that the run held has been freed; make the heap return it.
+  // Everything that the run stored has been freed by now. This makes the heap return the memory.
   app::give_back_freed_memory();
   session.loosen_heap_bound();
   const std::string peak = format_size(static_cast<double>(session.memory_taken()));

@@ -28,7 +28,7 @@ bool has_format(const std::string& path, BarcodeFormat format) {
   return barcode_format_of_path(path) == format;
 }
 
-/// "H0 and H1"
+/// Returns a text such as "H0 and H1".
 std::string names_of(const std::vector<int>& dims) {
   std::string names;
   for (std::size_t i = 0; i < dims.size(); ++i)

@@ -62,8 +62,8 @@ void require_separate(const Arguments& a, app::Session& session) {
     session.explain("--force: not needed, no output is an input");
 }
 
-/// Segments the cloud. If memory does not suffice, adds the options that help to the error, because
-/// only the program knows them.
+/// Segments the cloud. If memory does not suffice, adds the options that help to the error. Only
+/// the program knows these options.
 Segmentation segment_within_limits(const Cloud& cloud, const SegmentOptions& options,
                                    const RunContext& context) {
   try {
@@ -79,7 +79,7 @@ Segmentation segment_within_limits(const Cloud& cloud, const SegmentOptions& opt
   }
 }
 
-/// Cuts the stored tree anew.
+/// Cuts the stored tree again.
 void cut_again(Segmentation& s, const CutOptions& options, const RunContext& context) {
   s.cut = cut(s.tree, options, context);
   s.tree.first_cut = options;
@@ -102,13 +102,13 @@ Segmentation cut_of_tree(const Input& input, const Arguments& arguments,
 
 /// The input as it was read, and the result.
 struct Result {
-  std::optional<Cloud> cloud;  ///< empty: a stored tree was read
-  std::string sha256;          ///< hash of the input, for a report
+  std::optional<Cloud> cloud;  ///< empty if a stored tree was read
+  std::string sha256;          ///< the hash of the input, for a report
   Segmentation segmentation;
   double read_seconds = 0;
 };
 
-/// @param plane_guess plane of the frame before, if there was one.
+/// @param plane_guess the plane of the previous frame, if there was one.
 Result result_of(const Arguments& arguments, const std::optional<Plane>& plane_guess,
                  const Outputs& outputs, app::Session& session) {
   const RunContext& context = session.context();
@@ -154,8 +154,8 @@ Result result_of(const Arguments& arguments, const std::optional<Plane>& plane_g
   return result;
 }
 
-/// The signature of each segment. If memory does not suffice for one, it stays empty, with a note:
-/// the other results are not lost.
+/// The signature of each segment. If memory does not suffice for a signature, it stays empty and a
+/// note reports this. The other results are not lost.
 std::vector<std::optional<Barcode>> signatures_of(const Segmentation& s, app::Session& session) {
   std::vector<std::optional<Barcode>> signatures(s.cut.segments.size());
   for (const Segment& g : s.cut.segments) {
@@ -208,7 +208,7 @@ std::vector<std::string> notes_on(const Result& result, const Arguments& argumen
   return texts;
 }
 
-/// A note if the cloud is written as PLY, which cannot store its viewpoint; empty if there is
+/// A note if the cloud is written as PLY, which cannot store its viewpoint. Empty if there is
 /// nothing to note.
 std::string about_viewpoint(const OutputPaths& files, const Cloud* cloud) {
   if (cloud == nullptr) return {};
@@ -221,7 +221,7 @@ std::string about_viewpoint(const OutputPaths& files, const Cloud* cloud) {
   return {};
 }
 
-/// Keeps the view for the next frame, and warns if the camera has moved since the last one.
+/// Keeps the view for the next frame, and warns if the camera has moved since the last frame.
 void remember(const Segmentation& s, Remembered& remembered, std::vector<std::string>& warned) {
   if (!s.tree.plane) return;
   if (const auto motion = camera_motion(remembered.last, s.tree))

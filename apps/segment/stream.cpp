@@ -16,7 +16,7 @@
 namespace ph::segment {
 namespace {
 
-/// A text of several lines as one line, because strings in JSON hold no line ends.
+/// A text of several lines as one line, because strings in JSON contain no line ends.
 std::string one_line(std::string_view text) {
   std::string line;
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -56,7 +56,7 @@ class Stream {
       if (!arguments.common.force) known_.require_other(json());
       json_.emplace(json().path);
     }
-    // There is one copy of a long list of inputs here, not one per frame.
+    // There is only one copy of a long list of inputs, instead of one per frame.
     one_.inputs = {};
     one_.frames_from.clear();
   }
@@ -77,7 +77,7 @@ class Stream {
  private:
   app::Written json() const { return {"--json", arguments_.files.json}; }
 
-  /// Refuses an input that is the file of --json: this file is written at the end and would replace
+  /// Refuses an input that is the file of --json. This file is written at the end and would replace
   /// the input.
   void require_not_json(const std::string& input) {
     if (!json_) return;
@@ -91,7 +91,8 @@ class Stream {
   void require_separate(const Arguments& one) {
     std::vector<app::Written> outputs = one.files.written();
     if (outputs.empty()) return;
-    known_.add(one.input);                 // only if needed, because a stream may be endless
+    // Called only if needed, because a stream may be endless.
+    known_.add(one.input);
     if (json_) outputs.push_back(json());  // mutant: file-stream-json
     if (app::require_separate(known_, outputs, arguments_.common.force)) replaces_input_ = true;
   }
@@ -144,10 +145,11 @@ class Stream {
   }
 
   const Arguments& arguments_;
-  Arguments one_;  // for the current frame
+  Arguments one_;  // the arguments for the current frame
   app::Session& session_;
   FrameSource source_;
-  app::InputFiles known_;  // including the names that came from a pipe so far
+  // Including the names that have come from a pipe so far.
+  app::InputFiles known_;
   bool replaces_input_ = false;
   std::optional<app::Output> json_;
   Remembered remembered_;

@@ -115,7 +115,8 @@ void add_blocks(Fit& fit, const std::vector<Barcode>& barcodes,
 }
 
 void add_euler_block(Fit& fit, std::span<const StepFunction> curves, const Arguments& arguments) {
-  std::vector<Bar> changes;  // all curves, as bars that never end: the fit uses their births
+  // All curves, as bars that never end; the fit uses their births.
+  std::vector<Bar> changes;
   for (const StepFunction& curve : curves) {
     const std::size_t count = curve.at.size();
     // The range of a curve that begins at -infinity starts at its next change.

@@ -123,8 +123,8 @@ class Run {
     return euler_curve(bars_of(fit_, all, name, dropped_));
   }
 
-  /// Computes sample by sample, so that only one image must be in memory. Only a grid that must be
-  /// fitted needs the curves of all samples first.
+  /// Computes the curves sample by sample, so that only one image must be in memory. Only a grid
+  /// that must be fitted needs the curves of all samples first.
   Table euler_curves() {
     const bool knows_grid = !is_fitting() || (arguments_.grid && arguments_.grid->range);
     if (knows_grid && is_fitting()) add_euler_block(fit_, {}, arguments_);

@@ -13,8 +13,8 @@
 namespace ph::barcode {
 namespace {
 
-/// Parses "R=FILE": the value R at which the surface of the complex is taken, and the file that
-/// receives its triangles.
+/// Parses "R=FILE". R is the value at which the surface of the complex is taken, and FILE is the
+/// file that receives its triangles.
 Surface surface_of(const std::string& option, const std::string& text, bool is_wrap) {
   const auto fail = [&] {
     throw Error(ErrorKind::usage,

@@ -4,9 +4,9 @@
 #include "apps/barcode/arguments/scopes.hpp"
 #include "apps/common/arguments/options.hpp"
 
-// The options of ph-barcode, one source file per topic. Each `add_…` registers the options of a
-// topic; `job` must outlive `options`. Each `check_…` checks options that depend on one another,
-// derives settings from them, and throws Error (usage).
+// The options of ph-barcode, with one source file for each topic. Each `add_…` registers the
+// options of a topic, where `job` must outlive `options`. Each `check_…` checks options that depend
+// on one another, derives settings from them, and throws Error (usage).
 namespace ph::barcode {
 
 /// Registers the options that select the data read from a table or a picture: --columns, --delay,
@@ -24,15 +24,17 @@ void check_image_arguments(Job& job);
 
 /// Registers the options that select the complex.
 void add_complex_options(app::Options& options, Job& job);
-/// Registers the options that select the computation: dimensions, field, engine, representatives.
+/// Registers the options that select the computation, which are dimensions, field, engine and
+/// representatives.
 void add_homology_options(app::Options& options, Job& job);
 
-/// Registers the options for Rips complexes only: collapse, samples, approximation, weights.
+/// Registers the options that apply only to Rips complexes: collapse, samples, approximation,
+/// weights.
 void add_rips_options(app::Options& options, Job& job);
 /// Checks that at most one option gives weights, and that no option excludes weights.
 void check_rips_arguments(Job& job);
 
-/// Registers the options for alpha complexes only.
+/// Registers the options that apply only to alpha complexes.
 void add_alpha_options(app::Options& options, Job& job);
 void check_alpha_arguments(Job& job);
 

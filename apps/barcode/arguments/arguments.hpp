@@ -8,9 +8,9 @@
 
 namespace ph::barcode {
 
-/// Reads the command line; prints nothing.
-/// @return the answer to --help, --version or --formats, if one was asked for.
-/// @throws Error (usage) that names the option; Error (not_built_in).
+/// Reads the command line, and prints nothing.
+/// @return the answer to --help, --version or --formats, if one of these options was given.
+/// @throws Error (usage), which names the option; Error (not_built_in).
 std::optional<std::string> parse_arguments(int argc, const char* const* argv, Job& job);
 
 /// The manual of ph-barcode.
@@ -18,7 +18,7 @@ const app::Manual& manual();
 /// The manual of ph-barcode-mpi.
 const app::Manual& manual_of_ranks();
 
-/// The answer to --formats: all formats that are read or written, each with an example.
+/// The answer to --formats, which lists all formats that are read or written, each with an example.
 std::string formats_table();
 
 }  // namespace ph::barcode

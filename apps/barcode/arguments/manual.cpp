@@ -95,7 +95,7 @@ constexpr std::array kExamplesOfRanks{
 std::vector<app::FormatList> format_lists() {
   std::vector<app::FormatList> lists{{"Read (--format NAME), plain or compressed with gzip", {}},
                                      {"Written (--output-format NAME)", {}}};
-  // Static, because the lists refer to the descriptions.
+  // The vector is static, because the lists refer to the descriptions.
   static const std::vector<std::string> descriptions = [] {
     std::vector<std::string> all;
     for (const FormatInfo& info : formats())

@@ -24,7 +24,7 @@ void take_part(Job& job, const std::string& text) {
       static_cast<int>(parts)};
 }
 
-/// Refuses options that ranks do not support; ranks join their parts themselves.
+/// Refuses options that ranks do not support, because ranks join their parts themselves.
 void check_ranks(const Job& job) {
   const auto reject = [](std::string_view option, std::string_view why) {
     throw Error(ErrorKind::usage, fmt::format("{}: found on ranks{}", option, why));

@@ -12,7 +12,7 @@ namespace ph::barcode {
 enum Situation : app::Situations {
   kPoints = 1 << 0,       ///< points with their Rips complex
   kMatrix = 1 << 1,       ///< a square matrix of all distances
-  kTriangle = 1 << 2,     ///< one triangle of such a matrix
+  kTriangle = 1 << 2,     ///< one triangle of a matrix of distances
   kSomePairs = 1 << 3,    ///< sparse distances
   kImage = 1 << 4,        ///< an image with its cubical complex
   kVoxels = 1 << 5,       ///< points with --complex cubical

@@ -68,12 +68,12 @@ void check_table_arguments(Job& job) {
     if (job.reading.options.nan == NanPolicy::drop)
       throw Error(ErrorKind::usage,
                   "--delay: excludes --nan drop: no time may be missing in a time series");
-    // Reads an array of one or two axes.
+    // This reads an array of one or two axes.
     if (job.reading.format == Format::automatic) meaning = ArrayMeaning::image;
   }
   if (job.reading.format == Format::distance) meaning = ArrayMeaning::distances;
   if (meaning != ArrayMeaning::automatic) return;
-  // An option that has an effect for only one kind of input tells which kind the input is.
+  // An option that has an effect for only one kind of input determines the kind of the input.
   const auto is_only_for = [&](app::Situations kinds) {
     return std::ranges::any_of(job.given, [&](const app::GivenOption& option) {
       return (option.scope.where & ~kinds) == 0;

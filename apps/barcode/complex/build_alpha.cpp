@@ -46,8 +46,8 @@ BuiltComplex build_alpha(const Points& points, std::vector<double> weights,
   try {
     const bool is_weighted = !options.weights.empty();
     const Alpha alpha(points, options, context);
-    // A triangulation consists of many blocks, each too small to be returned to the system by
-    // itself.
+    // A triangulation consists of many blocks, each of which is too small to be returned to the
+    // system by itself.
     app::give_back_freed_memory();
     BuiltComplex built{alpha, std::string(kind), job.question.threshold, points.rows() == 0};
     if (is_weighted) built.vertex_weights = "squared radii of balls, from a file";

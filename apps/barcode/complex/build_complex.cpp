@@ -21,7 +21,7 @@
 namespace ph::barcode {
 namespace {
 
-/// Builds the complexes that make sense for each kind of data.
+/// Builds the complexes that are possible for each kind of data.
 class Builder {
  public:
   /// @param read the input as it was read; its data are visited by this object. @param dropped the
@@ -200,8 +200,8 @@ class Builder {
     return Rips(distances, std::move(options), context_);
   }
 
-  /// The numbers in a file that has one number for each point of the input, including points that
-  /// were left out.
+  /// The numbers in a file that has one number for each point of the input. These include points
+  /// that were left out.
   /// @param path the file; if it is empty, there are no numbers.
   std::vector<double> values_by_point(const std::string& path, Index points,
                                       double least = std::numeric_limits<double>::lowest(),
@@ -245,8 +245,8 @@ class Builder {
     return {std::move(complex), std::move(name), job_.question.threshold, empty};
   }
 
-  /// Values of the vertices for the lower star of listed simplices: from --values, or from the
-  /// lines of the vertices.
+  /// The values of the vertices for the lower star of listed simplices. They come from --values or
+  /// from the lines of the vertices.
   std::vector<double> vertex_values(const SimplicesInput& input) const {
     if (!input.vertex_values.empty()) return input.vertex_values;
     const SimplexList& list = input.simplices;
@@ -258,7 +258,7 @@ class Builder {
                               "--values gives them in a file",
                               mark_place(input.name), v));
     };
-    // Each vertex needs a line: if ids exceed the number of lines, one is missing.
+    // Each vertex needs a line. If an id exceeds the number of lines, a line is missing.
     if (largest >= static_cast<Index>(list.size())) fail_at(largest);
     std::vector<double> values(static_cast<std::size_t>(largest + 1),
                                std::numeric_limits<double>::quiet_NaN());
@@ -290,8 +290,9 @@ class Builder {
   const Job& job_;
   const RunContext& context_;
   const Format format_;
-  const std::vector<bool>& periodic_;  // axes that the file of the image declares periodic
-  const std::vector<Index>& ids_;      // numbers of the points in the input; empty: all are there
+  const std::vector<bool>& periodic_;  // the axes that the file of the image declares periodic
+  // The numbers of the points in the input; empty if all points are present.
+  const std::vector<Index>& ids_;
   const std::size_t dropped_;
 };
 

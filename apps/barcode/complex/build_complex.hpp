@@ -15,28 +15,30 @@ namespace ph::barcode {
 /// A complex with the facts that the user is told about it.
 struct BuiltComplex {
   AnyComplex complex;
-  std::string name;                 ///< "rips", "cubical", "explicit", "lower-star", "alpha", …
-  std::optional<double> threshold;  ///< threshold of its values; empty: all values are there
-  bool empty = false;               ///< true if there are no points or cells at all
-  // The same as the member of BarcodeInfo.
+  std::string name;  ///< "rips", "cubical", "explicit", "lower-star", "alpha", …
+  /// The threshold of its values; empty if all values are present.
+  std::optional<double> threshold;
+  bool empty = false;  ///< true if there are no points or cells at all
+  // This text is the same as the member of BarcodeInfo.
   std::string vertex_weights = {};
   std::string metric = {};
   std::optional<CubicalOptions> cubical = std::nullopt;  ///< for an image
   std::optional<BarcodeInfo::Subsample> subsample = std::nullopt;
   std::optional<BarcodeInfo::VoxelGrid> voxels = std::nullopt;  ///< for points as voxels
   std::optional<BarcodeInfo::AlphaValues> alpha = std::nullopt;
-  /// The same image listed cube by cube, for the oracle of --check; null: the oracle uses the
-  /// complex itself.
+  /// The same image listed cube by cube, for the oracle of --check. If it is null, the oracle uses
+  /// the complex itself.
   std::function<AnyComplex(const RunContext& context)> by_definition = nullptr;
 };
 
-/// One line about the points that are not part of an alpha complex; empty if there are none.
+/// One line about the points that are not part of an alpha complex. Empty if there are no such
+/// points.
 std::optional<std::string> hidden_points(const BuiltComplex& built);
 
 /// Adds the threshold and the subsample of a Rips complex, which are known only once the complex is
 /// built.
 void take_facts(BuiltComplex& built, const RunFacts& facts);
-/// One line about the accuracy of an approximation or a subsample; empty if there is none.
+/// One line about the accuracy of an approximation or a subsample. Empty if the complex is neither.
 std::optional<std::string> promise_of(const BuiltComplex& built, const RunFacts& facts);
 
 /// The merge tree of all points. Empty if the complex was sampled, approximated or cut off, or if
@@ -44,8 +46,8 @@ std::optional<std::string> promise_of(const BuiltComplex& built, const RunFacts&
 std::optional<MergeTree> tree_of(const BuiltComplex& built, const RunContext& context);
 
 /// Calls `work`, and puts the name of the input before its errors of kind bad_data. Data may be
-/// wrong in ways that no reader can detect, such as a point without a direction or distances that
-/// overflow. @throws Error (bad_data) "name: …"; other errors unchanged.
+/// wrong in ways that no reader can detect. Examples are a point without a direction, and distances
+/// that overflow. @throws Error (bad_data) "name: …"; other errors unchanged.
 template <class Work>
 decltype(auto) in_name_of(const std::string& name, Work&& work) {
   try {
@@ -56,20 +58,21 @@ decltype(auto) in_name_of(const std::string& name, Work&& work) {
   }
 }
 
-/// Chooses the complex that the arguments ask for, or the one that suits the data. A Rips complex
-/// refers to the points of the input, which must live as long as the complex.
+/// Chooses the complex that the arguments ask for, or otherwise the complex that suits the data. A
+/// Rips complex refers to the points of the input, which must live as long as the complex.
 /// @param name the name of the input, for messages. @param dropped the number of points of the
 /// input that were left out.
 /// @throws Error (usage) if an option does not fit the data; Error (bad_data) "name: …".
 BuiltComplex build_complex(ReadResult&& input, const std::string& name, std::size_t dropped,
                            const Job& job, const RunContext& context);
-/// The same for data that are needed again: the complex gets a copy where it has to own them.
+/// Does the same for data that are needed again. The complex gets a copy of the data where it must
+/// own them.
 BuiltComplex build_complex(const ReadResult& input, const std::string& name, std::size_t dropped,
                            const Job& job, const RunContext& context);
 
 /// The alpha complex of points, or another complex of their Delaunay triangulation.
-/// @param weights one per point, or none. @param ids the numbers of the points in the input; empty:
-/// they are the indices of the points.
+/// @param weights one weight for each point, or none. @param ids the numbers of the points in the
+/// input; if empty, they are the indices of the points.
 /// @throws Error (usage) if an option does not fit the points; Error (bad_data).
 BuiltComplex build_alpha(const Points& points, std::vector<double> weights,
                          const std::vector<Index>& ids, const std::string& name, const Job& job,

@@ -43,7 +43,7 @@ bool is_given(const Job& job, std::string_view option) {
   return std::ranges::count(job.given, option, &app::GivenOption::name) > 0;
 }
 
-/// The reason why data of this kind cannot contain NaN; empty if they can.
+/// The reason why data of this kind cannot contain NaN. Empty if they can contain NaN.
 std::string_view why_no_nan(const ReadResult& read) {
   if (read.format == Format::perseus) return "a Perseus file has none";
   if (std::holds_alternative<Mesh>(read.data)) return "a mesh has none";
@@ -53,10 +53,10 @@ std::string_view why_no_nan(const ReadResult& read) {
   return type == VoxelType::float32 || type == VoxelType::float64 ? "" : "no whole number is NaN";
 }
 
-/// True if every row may be the dimension, birth and death of a bar, although the file does not say
-/// that it holds a barcode.
+/// True if every row may be the dimension, birth and death of a bar, although the file does not
+/// state that it contains a barcode.
 bool may_be_bars(const ReadResult& read) {
-  constexpr double most = 9;  // highest dimension that a bar may plausibly have
+  constexpr double most = 9;  // the highest dimension that a bar may plausibly have
   const auto is_bar = [](double dim, double birth, double death) {
     return dim >= 0 && dim <= most && dim == std::floor(dim) && birth < death;
   };
@@ -87,7 +87,8 @@ bool may_be_bars(const ReadResult& read) {
       has_bars =
           read_stored_barcode(Input::open(files::path_of(job.places.input), &context)).bars.size() >
           0;
-    } catch (const std::exception&) {  // this time the file could not be read as a barcode either
+      // This time, the file could not be read as a barcode either.
+    } catch (const std::exception&) {
     }
   }
   if (!has_bars) throw;
@@ -114,7 +115,7 @@ Loaded load(const Job& job, std::optional<Input>& input, app::Session& session, 
                 fmt::format("{}: {} with NaN, expected numbers; --nan drop leaves them out",
                             mark_place(name), app::count_of(dropped, "point")));
   const std::string what = fmt::format("read {}: {}", name, read.description);
-  // In a batch, the line about each input states this.
+  // In a batch, the line about each input states the format.
   if (job.reading.format == Format::automatic && job.inputs == std::vector{job.places.input})
     session.note(what);
   else

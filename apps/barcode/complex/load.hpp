@@ -33,10 +33,10 @@ class Stopwatch {
 /// Everything that is kept of an input: the complex, and the facts that results state about it.
 struct Loaded {
   BuiltComplex built;
-  std::string name;  ///< name of the input, printable
+  std::string name;  ///< the name of the input, printable
   std::string description;
   std::vector<Index> point_ids;
-  // The data that the complex refers to or that a report shows; their memory is counted in the
+  // The data that the complex refers to or that a report shows. Their memory is counted in the
   // budget.
   std::optional<NamedData> data = {};
   std::unique_ptr<MemoryClaim> claim = {};

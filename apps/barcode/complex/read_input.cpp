@@ -15,7 +15,7 @@
 namespace ph::barcode {
 namespace {
 
-/// For a mesh without values: a note on how its vertices and faces are used. Empty for other data.
+/// For a mesh without values, a note on how its vertices and faces are used. Empty for other data.
 std::string note_on_mesh(const ReadResult& read, const Job& job) {
   const auto* const mesh = std::get_if<Mesh>(&read.data);
   if (job.question.complex == ComplexKind::lower_star || mesh == nullptr || mesh->faces() == 0 ||
@@ -27,7 +27,7 @@ std::string note_on_mesh(const ReadResult& read, const Job& job) {
       mesh->faces());
 }
 
-/// Turns the data into one row per time. @throws Error (bad_data) if they are not a table.
+/// Turns the data into one row for each time. @throws Error (bad_data) if the data are not a table.
 Points series_of(const std::string& name, ReadResult& read) {
   if (auto* const points = std::get_if<Points>(&read.data)) return std::move(*points);
   const auto* const image = std::get_if<Image>(&read.data);
@@ -41,7 +41,7 @@ Points series_of(const std::string& name, ReadResult& read) {
   return series;
 }
 
-/// Replaces a time series by points: each window of the series becomes a point.
+/// Replaces a time series by points. Each window of the series becomes a point.
 void embed(const std::string& name, const Delay& delay, std::size_t dropped,
            const RunContext& context, ReadResult& read) {
   if (dropped > 0)
@@ -73,8 +73,8 @@ NamedData read_input(const Input& input, const Job& job, const RunContext& conte
   options.context = &context;
   options.dropped = &dropped;
   Format format = job.reading.format;
-  // A time series is a table with one row per time and any number of columns, or an array, which
-  // may have one axis.
+  // A time series is either a table with one row for each time and any number of columns, or an
+  // array, which may have one axis.
   if (job.reading.delay && format == Format::automatic && !detail::format_by_content(input))
     format = Format::points;
   ReadResult read = read_any(input, format, options, files::path_of(job.reading.values));

@@ -23,7 +23,7 @@ bool Job::is_batch() const {
       std::ranges::any_of(places.plots, app::names_each, &app::Plot::path) ||
       std::ranges::any_of(places.surfaces, app::names_each, &Surface::path))
     return true;
-  // A folder is a batch only if there is a place for its results; otherwise it is an input that
+  // A folder is a batch only if there is a place for its results. Otherwise it is an input that
   // cannot be read.
   const auto takes_several = [](const std::string& path) {
     return path.empty() || app::is_folder(path);

@@ -21,7 +21,7 @@
 namespace ph::barcode {
 
 /// The kinds of complexes, in the order of complex_names(). `own` is a complex that a program has
-/// added; see OwnComplex.
+/// added (see OwnComplex).
 enum class ComplexKind {
   automatic,
   rips,
@@ -39,7 +39,7 @@ constexpr bool is_triangulated(ComplexKind kind) {
   return kind >= ComplexKind::alpha && kind <= ComplexKind::delaunay_rips;
 }
 
-/// The delay embedding of a time series: each window of the series becomes a point.
+/// The delay embedding of a time series. Each window of the series becomes a point.
 struct Delay {
   Index dimension, delay;
 };
@@ -48,8 +48,8 @@ struct Delay {
 struct Reading {
   Format format = Format::automatic;
   ReadOptions options;
-  std::string values;          ///< path; empty: none
-  std::optional<Delay> delay;  ///< empty: the input is not a time series
+  std::string values;          ///< a path; empty if there is none
+  std::optional<Delay> delay;  ///< empty if the input is not a time series
 };
 
 /// The question about an input: a complex, and the task for its homology.
@@ -58,24 +58,26 @@ struct Question {
   const OwnComplex* own_complex = nullptr;  ///< for ComplexKind::own
   std::optional<double> threshold;
   RipsOptions rips;
-  std::string vertex_weights;  ///< path; empty: none
+  std::string vertex_weights;  ///< a path; empty if there is none
   std::optional<AlphaOptions::Unit> alpha_unit;
-  std::string weights;         ///< path; empty: none
-  std::vector<double> period;  ///< one for all axes, or one per axis; empty: no axis closes up
+  std::string weights;  ///< a path; empty if there is none
+  /// One for all axes, or one for each axis; empty if no axis is periodic.
+  std::vector<double> period;
   CubicalOptions cubical;
-  std::optional<double> voxel;  ///< edge of a voxel, in the unit of the points
+  std::optional<double> voxel;  ///< the edge of a voxel, in the unit of the points
   VoxelValue voxel_value = VoxelValue::distance;
   Options options;
 };
 
-/// The results to compute besides the bars, and the form of all results.
+/// The results to compute in addition to the bars, and the form of all results.
 struct Results {
-  std::optional<LoopChoice> loops;  ///< empty: not given; tight is the default
+  std::optional<LoopChoice> loops;  ///< empty if not given; the default is tight
   bool check = false;
-  bool significance = false;  ///< a p-value per bar
+  bool significance = false;  ///< true if a p-value for each bar is wanted
   bool dry_run = false;
-  std::optional<BarcodeFormat> output_format;  ///< as --output-format names it; empty: not given
-  PlotOptions look;                            ///< look of the plots
+  /// The format that --output-format names; empty if it is not given.
+  std::optional<BarcodeFormat> output_format;
+  PlotOptions look;  ///< the look of the plots
 };
 
 /// The surface of an alpha complex at a value, as a file of triangles.
@@ -89,13 +91,14 @@ struct Surface {
 /// One input, and the destinations of its results. If there are several inputs, the command line
 /// has folders or patterns here, and each input gets its own places.
 struct Places {
-  std::string input = {};  ///< empty: the inputs of the job
+  std::string input = {};  ///< if empty, the inputs are the inputs of the job
   std::string output = "-";
-  BarcodeFormat format = BarcodeFormat::csv;  ///< of the barcode, once it is settled
+  /// The format of the barcode, once it has been determined.
+  BarcodeFormat format = BarcodeFormat::csv;
   std::vector<app::Plot> plots = {};
-  std::string report = {};  ///< empty: none
+  std::string report = {};  ///< empty if there is no report
   std::vector<Surface> surfaces = {};
-  Barcode* bars = nullptr;  ///< receives the bars, if not null
+  Barcode* bars = nullptr;  ///< receives the bars, unless it is null
 };
 
 /// The share of the work that this process does.
@@ -104,11 +107,11 @@ struct Sharing {
     int number, of;  // `number` counts from 0
   };
   std::optional<Part> part;
-  bool on_ranks = false;     ///< the program has several processes
-  bool joins = false;        ///< the inputs are parts
-  bool resumes = false;      ///< a part that exists already is kept
-  bool keeps_cells = false;  ///< parts store the cells of bars
-  /// With --part: the options that affect results, as typed.
+  bool on_ranks = false;     ///< true if the program has several processes
+  bool joins = false;        ///< true if the inputs are parts
+  bool resumes = false;      ///< true if a part that exists already is kept
+  bool keeps_cells = false;  ///< true if parts store the cells of bars
+  /// With --part, the options that affect results, as typed.
   std::vector<std::string> typed_options;
 };
 
@@ -121,31 +124,32 @@ struct Job {
   Results results;
   Places places;
   Sharing sharing;
-  bool stored = false;               ///< the inputs are barcodes: `ph-barcode plot BARS…`
-  std::vector<std::string> compare;  ///< two barcode files; empty: a barcode is computed
+  /// True if the inputs are barcodes, as in `ph-barcode plot BARS…`.
+  bool stored = false;
+  std::vector<std::string> compare;  ///< two barcode files; if empty, a barcode is computed
   std::vector<std::string> notes;    ///< notes about the command line, to be printed once
-  std::vector<std::string> command;  ///< as typed, for the report
+  std::vector<std::string> command;  ///< the command as typed, for the report
   /// The given options that have no effect for some inputs.
   std::vector<app::GivenOption> given;
-  bool of_batch = false;  ///< `places` belongs to one input of a batch
+  bool of_batch = false;  ///< true if `places` belongs to one input of a batch
 
   /// True if the command line asks for a plot of the merge tree.
   bool draws_tree() const;
-  /// True if a single input is computed in parts: one part with --part, or all parts on ranks.
-  /// False if --part selects some of several inputs. The input is an image, unless --complex rips
-  /// says that it consists of points.
+  /// True if a single input is computed in parts. These are one part with --part, or all parts on
+  /// ranks. False if --part selects some of several inputs. The input is an image, unless --complex
+  /// rips says that it consists of points.
   bool wants_part_of_one() const;
   bool wants_image_part() const {
     return wants_part_of_one() && question.complex != ComplexKind::rips;
   }
-  /// True if the run is a batch: each input has its own output files.
+  /// True if the run is a batch, in which each input has its own output files.
   bool is_batch() const;
 };
 
 /// The outcome of one input.
 struct Outcome {
   int code = 0;
-  std::string summary;  ///< "1024 points in R^3, CSV: 57 bars"
+  std::string summary;  ///< such as "1024 points in R^3, CSV: 57 bars"
 };
 
 }  // namespace ph::barcode

@@ -11,9 +11,9 @@ namespace ph::barcode {
 
 /// A complex of points that a program adds to the choices of --complex.
 struct OwnComplex {
-  std::string_view name;  ///< as in --complex NAME
+  std::string_view name;  ///< the name as in --complex NAME
   std::string_view what;  ///< one phrase, for --help
-  /// Builds the whole complex; a threshold is applied to the bars afterwards. Vertex i of the
+  /// Builds the whole complex. A threshold is applied to the bars afterwards. Vertex i of the
   /// complex is point i.
   std::function<ExplicitComplex(PointsView points, const RunContext& context)> of_points;
 };
@@ -24,7 +24,7 @@ void add_complex(OwnComplex complex);
 
 /// The complexes added so far.
 std::span<const OwnComplex> own_complexes();
-/// The names that --complex knows, "auto" first.
+/// The names that --complex knows, with "auto" first.
 std::span<const std::string_view> complex_names();
 
 }  // namespace ph::barcode

@@ -39,8 +39,8 @@ std::string text_of(const Fit& fit, const Job& job) {
   return text_of(fmt::format("{}", fmt::join(changes, " ")), fit);
 }
 
-/// The smallest of a few larger voxel sizes at which the image of the points fits into memory;
-/// empty if none does.
+/// The smallest of a few larger voxel sizes at which the image of the points fits into memory.
+/// Empty if the image fits with none of them.
 std::string larger_voxel(const NamedData& data, const Job& job, const RunContext& context) {
   for (const double times : {1.5, 2.0, 4.0, 8.0, 16.0}) {
     Job changed = job;

@@ -34,10 +34,10 @@ std::string estimate_text(const Estimate& estimate, const BuiltComplex& built,
   const int listed = static_cast<int>(estimate.cells.size()) - 1;
   if (listed < *estimate.options.max_dim + 1)
     text += fmt::format("cells    dimension {} and above: not listed\n", listed + 1);
-  // Part of the measured memory is code pages, which any input needs.
+  // Some of the measured memory consists of code pages, which any input needs.
   constexpr double code = 2 << 20;
   const double low = std::max({0.0, taken - code, estimate.bytes_low});
-  // Memory that was freed after building may not suit the next allocations: in the worst case, none
+  // Memory that was freed after building may not suit the next allocations. In the worst case, none
   // of it is used again.
   const double high =
       std::max(taken, estimate.bytes_held) + estimate.bytes_high - estimate.bytes_held;

@@ -15,11 +15,11 @@ namespace ph::barcode {
 std::string estimate_text(const Estimate& estimate, const BuiltComplex& built,
                           const std::string& description, double taken);
 
-/// For a job that ran out of memory: changes of the command line with which the job should fit.
-/// Reads the input again, builds the complex for each change within the limit, and estimates the
-/// memory of its computation.
-/// @return "what would fit: " or, for an image, "what may fit: ", and at most three changes; empty
-/// if none is known.
+/// For a job that ran out of memory, finds changes of the command line with which the job should
+/// fit. Reads the input again, builds the complex for each change within the limit, and estimates
+/// the memory of its computation.
+/// @return "what would fit: " or, for an image, "what may fit: ", followed by at most three
+/// changes. Empty if no change is known.
 std::string alternatives(const Job& job, app::Session& session);
 
 }  // namespace ph::barcode

@@ -19,7 +19,7 @@ std::string lines_of(const Forecast& forecast, std::string_view process, std::st
     text += fmt::format("{:8} {} to {} ({})\n", what, format_size(low), format_size(high), of);
   };
   if (!process.empty()) {
-    // The first rank also holds the bars of all other ranks.
+    // The first rank also stores the bars of all other ranks.
     add("memory", forecast.memory.low, forecast.memory.high + forecast.join.high / 2,
         fmt::format("the {} that takes most{}", process, beside));
     add("sent", forecast.sent.low, forecast.sent.high, fmt::format("by all {}s together", process));

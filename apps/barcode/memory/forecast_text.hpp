@@ -8,13 +8,13 @@
 
 namespace ph::barcode {
 
-/// The output of --dry-run for an image in parts: one fact per line.
+/// The output of --dry-run for an image in parts, with one fact per line.
 /// @param process the word for processes that compute the parts together and exchange messages, as
 /// in Transport. If it is empty, each part is written to a file.
 std::string forecast_text(const ImagePartForecast& forecast, const std::string& description,
                           int parts, std::string_view process);
 
-/// The same for a point cloud.
+/// Does the same for a point cloud.
 std::string forecast_text(const CloudPartForecast& forecast, const std::string& description,
                           int parts, std::string_view process);
 

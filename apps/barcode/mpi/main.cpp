@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// ph-barcode-mpi: the barcode of one image, or of points, on all ranks of MPI.
+// This program, ph-barcode-mpi, computes the barcode of one image, or of points, on all ranks of
+// MPI.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -19,8 +20,8 @@ constexpr ph::app::Program kProgram{
     "take more ranks on more machines, ask for less (--max-dim), or raise "
     "--memory-limit"};
 
-/// True if an option such as --help is given. It must be answered without MPI, which may be missing
-/// on a machine where users only ask for help.
+/// True if an option such as --help is given. This option must be answered without MPI, which may
+/// be missing on a machine where users only ask for help.
 bool is_help_asked(int argc, char** argv) {
   for (int i = 1; i < argc; ++i) {
     const std::string_view word = argv[i];
@@ -39,7 +40,7 @@ int print_help(int argc, char** argv) {
   });
 }
 
-/// Divides the memory and the cores of this machine among its ranks, where options do not say
+/// Divides the memory and the cores of this machine among its ranks, unless options state
 /// otherwise.
 void share_machine(ph::app::CommonOptions& options, int ranks) {
   const auto count = static_cast<unsigned>(ranks);
@@ -65,9 +66,9 @@ int main(int argc, char** argv) {
     }
     share_machine(job.common, transport.ranks_here());
     const bool is_first = transport.rank() == 0;
-    // Only rank 0 prints notes; another rank speaks only if it fails or with --verbose.
+    // Only rank 0 prints notes. Another rank prints something only if it fails or with --verbose.
     job.common.quiet = job.common.quiet || (!is_first && !job.common.verbose);
-    // Only the first rank shows a bar; lines of JSON name their rank.
+    // Only the first rank shows a progress bar. Lines of JSON name their rank.
     if (job.common.progress == ph::app::ProgressMode::json)
       job.common.rank = transport.rank();
     else if (!is_first)

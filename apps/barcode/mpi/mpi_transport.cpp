@@ -12,11 +12,11 @@ namespace ph::barcode {
 namespace {
 
 constexpr int kTag = 1;
-// Counts in MPI are ints: a message is sent in pieces of at most this many bytes.
+// Counts in MPI are ints. A message is therefore sent in pieces of at most this many bytes.
 constexpr std::size_t kMostAtOnce = std::size_t{1} << 30;
 
-/// Waits for a pending operation, and sleeps between polls, longer each time. A wait inside MPI
-/// would use a whole core, which another rank may need.
+/// Waits for a pending operation, and sleeps between polls for longer and longer times. A wait
+/// inside MPI would use a whole core, which another rank may need.
 void wait_for(MPI_Request& request) {
   using std::chrono::microseconds;
   constexpr int kBusy = 200;  // number of immediate polls
@@ -79,8 +79,8 @@ void MpiTransport::wait_for_all() {
 
 int MpiTransport::finish(int code) {
   if (code != 0) {
-    // Gives MPICH time to forward the output of this rank, because an abort cuts off the output
-    // that is still in MPICH's pipes.
+    // The pause gives MPICH time to forward the output of this rank, because an abort cuts off the
+    // output that is still in MPICH's pipes.
     std::this_thread::sleep_for(std::chrono::milliseconds(200));
     MPI_Abort(MPI_COMM_WORLD, code);
   }

@@ -4,9 +4,8 @@
 
 namespace ph::barcode {
 
-/// The ranks of MPI. There is at most one such object, and it lives as long as the program uses
-/// MPI. Only the thread that made it uses it (MPI_THREAD_FUNNELED). A failure of MPI ends all
-/// ranks.
+/// The ranks of MPI. At most one such object exists, and it lives as long as the program uses MPI.
+/// Only the thread that made it uses it (MPI_THREAD_FUNNELED). A failure of MPI ends all ranks.
 class MpiTransport final : public Transport {
  public:
   MpiTransport(int* argc, char*** argv);
@@ -15,11 +14,11 @@ class MpiTransport final : public Transport {
   int size() const override { return size_; }
   void send(int to, std::span<const std::byte> message) override;
   std::vector<std::byte> receive(int from) override;
-  /// Number of ranks on this machine, which share its memory and cores.
+  /// The number of ranks on this machine, which share its memory and cores.
   int ranks_here() const { return ranks_here_; }
   /// Waits until all ranks have called this function.
   void wait_for_all();
-  /// Ends this rank, and all others unless the code is 0. @return the code.
+  /// Ends this rank, and also all other ranks unless the code is 0. @return the code.
   int finish(int code);
 
  private:

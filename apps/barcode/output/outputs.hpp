@@ -19,8 +19,9 @@ class Outputs {
   /// @param look the look of the plots. @param trees the plots of merge trees, in their order.
   void write(const Barcode& bars, const BarcodeInfo& info, const PlotOptions& look,
              std::span<const std::string> trees, const RunContext& context);
-  /// Writes the surfaces of an alpha complex; they are completed with the other files.
-  /// @param ids the numbers of the points in the input; empty: they are the indices of the points.
+  /// Writes the surfaces of an alpha complex. They are completed with the other files.
+  /// @param ids the numbers of the points in the input; if empty, they are the indices of the
+  /// points.
   void write_surfaces(const Alpha& alpha, PointsView points, std::span<const Index> ids,
                       const RunContext& context);
   /// Precondition: the job has a report.
@@ -32,7 +33,7 @@ class Outputs {
   std::vector<app::Output> plots_, surfaces_;
 };
 
-/// The look of the plots of an image: for superlevel sets, axes are labelled with the values of the
+/// The look of the plots of an image. For superlevel sets, axes are labelled with the values of the
 /// image instead of their negatives.
 PlotOptions look_of(PlotOptions look, bool superlevel);
 

@@ -26,11 +26,11 @@ namespace {
 
 using report::ReportFile;
 
-// Largest number of bars of one dimension, in both barcodes together, for which computing their
+// The largest number of bars of one dimension, in both barcodes together, for which computing their
 // distance takes only seconds.
 constexpr std::size_t kMostComparedBars = 40'000;
 
-/// The points that the page shows; empty if there are none, or if cells are named by grid
+/// The points that the page shows. Empty if there are no points, or if cells are named by grid
 /// coordinates.
 std::optional<PointsView> shown_points(const Shown& shown) {
   if (std::holds_alternative<Cubical>(shown.built.complex)) return std::nullopt;
@@ -39,7 +39,8 @@ std::optional<PointsView> shown_points(const Shown& shown) {
   return points;
 }
 
-/// True if the first axis of an image is x: its format says so, or it was made from points.
+/// True if the first axis of an image is x, because its format says so or because the image was
+/// made from points.
 bool has_axes_of_space(const ReadResult& read) {
   return read.format == Format::nifti || read.format == Format::dipha ||
          std::holds_alternative<Points>(read.data);
@@ -72,8 +73,8 @@ report::Provenance provenance_of(const Shown& shown, const Job& job) {
   return provenance;
 }
 
-/// The merge tree; empty if memory does not suffice for it, because the barcode, which is complete,
-/// can be shown without the tree.
+/// The merge tree. Empty if memory does not suffice for it, because the complete barcode can also
+/// be shown without the tree.
 std::optional<report::ShownTree> tree_if_it_fits(const Shown& shown, app::Session& session) {
   const RunContext& context = session.context();
   try {
@@ -91,7 +92,7 @@ std::optional<report::ShownTree> tree_if_it_fits(const Shown& shown, app::Sessio
 
 /// Adds the distances of two barcodes, one for each dimension in which either has bars.
 /// @param matched receives the numbers of the bars that are paired.
-/// @return the dimensions that would take long: "H1: 50000 bars".
+/// @return the dimensions that would take long, such as "H1: 50000 bars".
 std::vector<std::string> add_distances(report::Metadata& meta, std::span<const Barcode, 2> barcodes,
                                        std::vector<std::uint32_t>& matched, app::Session& session) {
   const Barcode &a = barcodes[0], &b = barcodes[1];
@@ -105,7 +106,7 @@ std::vector<std::string> add_distances(report::Metadata& meta, std::span<const B
     }
     const auto [distance, pairs] = app::matching_of(bars[0], bars[1], {}, session.context());
     meta.distances.push_back({dim, distance.value});
-    // The bars of one dimension are consecutive in each barcode, so the number of the first one is
+    // The bars of one dimension are consecutive in each barcode, so the number of the first bar is
     // enough.
     const auto first = bars[0].empty() ? 0U : static_cast<std::uint32_t>(&bars[0][0] - &a[0]);
     const auto second = bars[1].empty() ? 0U : static_cast<std::uint32_t>(&bars[1][0] - &b[0]);
@@ -165,7 +166,7 @@ int run_comparison(const Job& job, app::Session& session) try {
   }
   std::vector<std::uint32_t> matched;
   const auto left_out = add_distances(meta, std::span(barcodes).first<2>(), matched, session);
-  // Stated here as well, because not all formats have room for it.
+  // This is also stated here, because not all formats have room for it.
   for (const std::string& what : left_out)
     session.note(fmt::format("left out: {}; at most {} are compared", what, kMostComparedBars));
   meta.provenance.run.peak_memory = app::peak_memory();

@@ -22,15 +22,15 @@ struct Shown {
   std::vector<std::string> warnings;
 };
 
-/// Writes the interactive report; the caller commits the file. Besides the barcode, the report
-/// contains the points or the image, and the merge tree of H0. It has no tree if the complex was
-/// subsampled, approximated or cut off. If memory does not suffice for the tree, the tree is left
-/// out and a note reports it.
+/// Writes the interactive report. The caller commits the file. In addition to the barcode, the
+/// report contains the points or the image, and the merge tree of H0. It has no tree if the complex
+/// was subsampled, approximated or cut off. If memory does not suffice for the tree, the tree is
+/// left out and a note reports it.
 /// @throws Error (io, resource, cancelled).
 void write_report(OutputFile& file, const Shown& shown, const Job& job, app::Session& session);
 
-/// --compare: reads two barcodes, and writes their distances and a report of both. @return the exit
-/// code.
+/// Handles --compare: reads two barcodes, and writes their distances and a report of both barcodes.
+/// @return the exit code.
 /// @throws Error like read_barcode and OutputFile.
 int run_comparison(const Job& job, app::Session& session);
 

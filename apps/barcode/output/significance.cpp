@@ -38,7 +38,7 @@ std::vector<double> p_values_of(const Barcode& barcode, DistanceFiltration filtr
   std::vector<double> result(barcode.size(), std::numeric_limits<double>::quiet_NaN());
   for (std::size_t begin = 0; begin < barcode.size();) {
     std::size_t end = begin;
-    std::vector<Bar> bars;  // bars of one dimension, in its order
+    std::vector<Bar> bars;  // the bars of one dimension, in the order of the dimension
     while (end < barcode.size() && barcode[end].dim == barcode[begin].dim)
       bars.push_back(barcode[end++]);
     if (barcode[begin].dim > 0)

@@ -9,12 +9,12 @@
 
 namespace ph::barcode {
 
-/// To be called before the computation. @throws Error (usage) if p-values are requested that no
-/// output can hold or that would be meaningless.
+/// Must be called before the computation. @throws Error (usage) if the requested p-values would be
+/// meaningless or no output has room for them.
 void require_significance(BarcodeFormat format, const Job& job);
 
-/// For each bar its p-value, multiplied by the number of tested bars of its dimension; NaN for
-/// components and for bars that never die.
+/// For each bar, its p-value multiplied by the number of tested bars of its dimension. It is NaN
+/// for components and for bars that never die.
 /// @param filtration the filtration of the bars.
 std::vector<double> p_values_of(const Barcode& barcode, DistanceFiltration filtration);
 

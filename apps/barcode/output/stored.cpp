@@ -50,8 +50,8 @@ Outcome run_stored(const Job& job, const Input& input, Outputs& outputs, app::Se
     session.explain(what);
   else
     session.note(what);
-  // Other formats cannot hold the further data of a JSON file, and nobody expects to find such data
-  // in them. Therefore a loss is noted only for JSON and, for p-values, for CSV.
+  // Other formats have no room for the further data of a JSON file, and nobody expects to find
+  // these data in them. A loss is therefore noted only for JSON and, for p-values, for CSV.
   const bool loses_p =
       job.places.format == BarcodeFormat::csv && std::ranges::find(left_out, "p") != left_out.end();
   if (loses_p || (job.places.format == BarcodeFormat::json && !left_out.empty()))
@@ -63,7 +63,7 @@ Outcome run_stored(const Job& job, const Input& input, Outputs& outputs, app::Se
   info.peak_memory = app::peak_memory();
   note_absent_dims(barcode, job.results.look, session);
   const app::BarHold results_are_written(session);
-  // The program that converts the bars is not the one that computed them.
+  // The program that converts the bars is not the program that computed them.
   const bool is_known = !origin.program.empty();
   // mutant: stored-origin
   outputs.write(barcode, is_known ? origin : info, look_of(job.results.look, origin.superlevel), {},
@@ -114,7 +114,7 @@ std::string distances_file(const std::vector<report::Distance>& distances,
                            {"distances", json::lines(distances, distance)},
                            {"left_out", json::array(left_out, json::string)}});
   }
-  const app::DistanceChoice choice;  // the bottleneck distance
+  const app::DistanceChoice choice;  // the default choice is the bottleneck distance
   text =
       fmt::format("{} of {} and {}\n", app::words_of(choice), printable(first), printable(second));
   for (const auto& [dim, bottleneck] : distances)

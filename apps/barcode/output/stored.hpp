@@ -19,8 +19,9 @@ inline std::string fewer_bars() {
   return "take fewer bars, or raise " + mark(Setting::memory_limit);
 }
 
-/// Reads a stored barcode and writes what the job asks for: a converted file, a plot, a report.
-/// @throws Error (usage) on a plot of anything but bars; Error like read_barcode and OutputFile.
+/// Reads a stored barcode and writes what the job asks for, such as a converted file, a plot or a
+/// report.
+/// @throws Error (usage) if a plot needs more than bars; Error like read_barcode and OutputFile.
 Outcome run_stored(const Job& job, const Input& input, Outputs& outputs, app::Session& session);
 
 /// The formats of the distances of two barcodes.

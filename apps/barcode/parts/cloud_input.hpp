@@ -17,12 +17,12 @@ struct CloudInput {
   CloudPartOptions options;
 };
 
-/// @param input a path; the data stay in the file if it has the layout of memory.
-/// @throws Error (usage) on anything but points, and if more than components is requested.
+/// @param input a path. The data stay in the file if the file has the layout of memory.
+/// @throws Error (usage) if the input is not points, or if more than components is requested.
 CloudInput read_cloud_input(const std::string& input, const Job& job, app::Session& session);
 
-/// The part that a file holds, if it is this part of this cloud, complete, and not older than the
-/// cloud. Otherwise the part must be computed anew.
+/// The part in a file, if it is this part of this cloud, complete, and not older than the cloud.
+/// Otherwise the part must be computed again.
 std::optional<CloudPart> kept_cloud_part(const std::string& path, const std::string& input,
                                          const CloudInput& cloud, int part, int parts,
                                          app::Session& session);

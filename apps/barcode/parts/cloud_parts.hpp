@@ -19,14 +19,14 @@ Outcome foresee(const CloudInput& cloud, int parts, std::string_view process);
 /// @throws Error (usage) if the input is not points, or if more than components is requested.
 Outcome run_cloud_part(const std::string& input, const Job& job, app::Session& session);
 
-/// Joins parts of a cloud and writes the bars, or one part. @throws Error (bad_data) naming the
-/// files, if parts do not belong together or some are missing.
+/// Joins parts of a cloud and writes the bars, or one part. @throws Error (bad_data), which names
+/// the files, if parts do not belong together or some are missing.
 Outcome join_cloud_parts(const std::vector<PartFile>& files, const Job& job, app::Session& session);
 
 /// The bars of a complete cloud, with cells if a format shows them.
 Barcode bars_of(CloudPart whole, BarcodeFormat format, const RunContext& context);
 
-/// The description of such a cloud in the JSON format.
+/// The description of a complete cloud in the JSON format.
 BarcodeInfo info_of(const CloudPart& whole, const std::string& description,
                     const std::string& input);
 

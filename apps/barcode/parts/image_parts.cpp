@@ -26,7 +26,7 @@
 namespace ph::barcode {
 namespace {
 
-/// "part 3 of 8", "parts 2 to 4 of 8"
+/// Returns words such as "part 3 of 8" or "parts 2 to 4 of 8".
 std::string words_of(const ImagePart& part) {
   if (part.first() == part.last())
     return fmt::format("part {} of {}", part.first() + 1, part.parts());
@@ -41,7 +41,7 @@ ImagePart of_file(const PartFile& file, const RunContext& context) {
   }
 }
 
-/// Joins parts; errors about parts that do not belong together name their files.
+/// Joins parts. Errors about parts that do not belong together name the files of these parts.
 void join(ImagePart& all, ImagePart next, const std::string& before, const std::string& path,
           const RunContext& context) {
   try {

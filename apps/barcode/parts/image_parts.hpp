@@ -22,14 +22,14 @@ Outcome foresee(const PartInput& read, int parts, std::string_view process);
 /// @throws Error (usage) if the input is not an image.
 Outcome run_image_part(const std::string& input, const Job& job, app::Session& session);
 
-/// The part that a file holds, if it is this part of this image, complete, and not older than the
-/// image. Otherwise the part must be computed anew.
+/// The part in a file, if it is this part of this image, complete, and not older than the image.
+/// Otherwise the part must be computed again.
 std::optional<ImagePart> kept_image_part(const std::string& path, const std::string& input,
                                          const PartInput& image, int part, int parts,
                                          app::Session& session);
 
-/// Joins parts of an image and writes the bars, or one part. @throws Error (bad_data) naming the
-/// files, if parts do not belong together or some are missing.
+/// Joins parts of an image and writes the bars, or one part. @throws Error (bad_data), which names
+/// the files, if parts do not belong together or some are missing.
 Outcome join_image_parts(std::vector<PartFile> files, const Job& job, app::Session& session);
 
 /// The description of a complete image in the JSON format.

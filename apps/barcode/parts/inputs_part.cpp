@@ -91,15 +91,15 @@ InputsPart InputsPart::of_bytes(std::span<const std::byte> bytes) {
       if (bar.dim < 0 || !(bar.birth <= bar.death)) from.refuse("bar");
       result.bars.add(bar);
     }
-    constexpr int most_code = 255;  // largest exit code that the system passes on
+    constexpr int most_code = 255;  // the largest exit code that the system passes on
     const bool failed = result.code != 0;
     if (result.code < 0 || result.code > most_code || failed == result.failure.empty() ||
         (failed && result.bars.size() > 0))
       from.refuse("code");
   }
   from.expect_end();
-  // The part must hold exactly one result for each input of its parts, and none for any other
-  // input.
+  // The part must contain exactly one result for each input of its parts, and no result for any
+  // other input.
   auto next = part.results_.begin();
   for (std::size_t i = 0; i < whole.inputs.size(); ++i)
     if (std::ranges::binary_search(part.numbers_, part_of(i, whole.parts)) &&

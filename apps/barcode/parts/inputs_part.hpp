@@ -11,41 +11,40 @@
 
 namespace ph::barcode {
 
-/// The barcodes of some of several inputs, computed separately from the others.
+/// The barcodes of some of several inputs, computed separately from the other inputs.
 class InputsPart {
  public:
   /// The facts that all parts share.
   struct Whole {
-    std::vector<std::string> inputs, options;  ///< options as they were typed
+    std::vector<std::string> inputs, options;  ///< the options as they were typed
     int parts = 1;
     friend bool operator==(const Whole&, const Whole&) = default;
   };
   struct Result {
-    std::size_t input = 0;  ///< number of the input
-    int code = 0;           ///< exit code of the program for this input
-    std::string failure;    ///< the reason if there are no bars; empty: the bars are there
+    std::size_t input = 0;  ///< the number of the input
+    int code = 0;           ///< the exit code of the program for this input
+    std::string failure;    ///< the reason if there are no bars; empty if there are bars
     Barcode bars;
   };
 
   InputsPart(Whole whole, int part) : whole_(std::move(whole)), numbers_{part} {}
 
   const Whole& whole() const { return whole_; }
-  /// The parts that it has, ascending.
+  /// The parts that this object contains, ascending.
   std::span<const int> numbers() const { return numbers_; }
   bool is_whole() const { return numbers_.size() == static_cast<std::size_t>(whole_.parts); }
   /// The results, sorted by the number of the input.
   std::span<const Result> results() const { return results_; }
-  /// The number of the part that an input belongs to. Consecutive inputs, which are often alike, go
-  /// to different parts in turn.
+  /// The number of the part that an input belongs to. Consecutive inputs are often alike. They are
+  /// assigned to different parts in turn.
   static int part_of(std::size_t input, int parts) {
     return static_cast<int>(input % static_cast<std::size_t>(parts));
   }
 
   /// Inputs must come in ascending order.
   void add(Result result) { results_.push_back(std::move(result)); }
-  /// @throws Error (bad_data) if the other part has different inputs or options, or contains a part
-  /// that
-  ///         this one has; in that case nothing has changed.
+  /// @throws Error (bad_data) if the other part has different inputs or options, or if both contain
+  /// the same part. In this case nothing has changed.
   void join(InputsPart other);
 
   std::vector<std::byte> bytes() const;
@@ -58,7 +57,7 @@ class InputsPart {
   std::vector<Result> results_;
 };
 
-/// The kind of such a part; see ph/detail/core/sealed_part.hpp.
+/// The kind of a part of inputs (see ph/detail/core/sealed_part.hpp).
 inline constexpr std::string_view kInputsKind = "inputs";
 
 }  // namespace ph::barcode

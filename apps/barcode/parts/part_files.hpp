@@ -20,7 +20,7 @@ struct PartFile {
   std::vector<std::byte> bytes;
 };
 
-/// True if a path is meant to hold a part: it ends in .ph.
+/// True if a path is intended for a part, that is, if it ends in .ph.
 bool is_part_path(const std::string& path);
 
 /// The path of one part of an input. If `output` is a folder, it is created, and the file in it is
@@ -31,16 +31,16 @@ std::string part_path(const std::string& output, const std::string& name, int pa
 /// The whole content of a part file. @throws Error like Input::open.
 std::vector<std::byte> read_part_file(const std::string& path, app::Session& session);
 
-/// The file that --resume may keep: the whole content of an existing part file, if no input is
-/// newer.
+/// The file that --resume may keep. Returns the whole content of an existing part file, if no input
+/// is newer than this file.
 std::optional<std::vector<std::byte>> kept_part_file(const std::string& path,
                                                      std::span<const std::string> inputs,
                                                      app::Session& session);
 
-/// The part that a file holds, for --resume. If the file is damaged or holds another part, a note
-/// says so, and the part must be computed anew.
+/// The part in a file, for --resume. If the file is damaged or contains another part, a note
+/// reports this, and the part must be computed again.
 /// @param of_bytes makes a part from bytes; throws Error (bad_data) on other bytes.
-/// @param why_not says why a part is not the requested one; empty: it is.
+/// @param why_not says why a part is not the requested part; empty if it is the requested part.
 template <class OfBytes, class WhyNot>
 std::optional<std::invoke_result_t<OfBytes, std::span<const std::byte>>> kept_part(
     const std::string& path, std::span<const std::string> inputs, app::Session& session,
@@ -60,7 +60,8 @@ std::optional<std::invoke_result_t<OfBytes, std::span<const std::byte>>> kept_pa
   return std::nullopt;
 }
 
-/// Writes a part; the file appears once it is complete. @return its size, as text for users.
+/// Writes a part. The file appears once it is complete. @return the size of the file, as text for
+/// users.
 std::string write_part_file(app::Output& output, std::span<const std::byte> bytes);
 
 /// Writes the bars of a complete result, without bars below the user's limit.

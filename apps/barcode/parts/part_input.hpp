@@ -12,12 +12,12 @@ namespace ph::barcode {
 struct PartInput {
   Image image;
   ImagePartOptions options;
-  std::string description;  ///< "image of 64 x 96 voxels, PGM"
+  std::string description;  ///< such as "image of 64 x 96 voxels, PGM"
 };
 
-/// @param input a path; the data stay in the file if it has the layout of memory.
+/// @param input a path. The data stay in the file if the file has the layout of memory.
 /// @param keeps_cells true if bars keep their cells.
-/// @throws Error (usage) on anything but an image, and on options that do not apply to images.
+/// @throws Error (usage) if the input is not an image, and on options that do not apply to images.
 PartInput read_part_input(const std::string& input, bool keeps_cells, const Job& job,
                           app::Session& session);
 

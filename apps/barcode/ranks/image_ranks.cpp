@@ -75,7 +75,7 @@ RankResult image_of_ranks(const Job& job, Transport& transport, app::Session& se
         [&] { return kept_image_part(result.kept, job.places.input, input, rank, parts, session); },
         [&] { return ImagePart(input.image, rank, parts, input.options, context); },
         [&](const ImagePart& part) {
-          // The search for loops needs voxels, which no part file has.
+          // The search for loops needs voxels, which are not in part files.
           if (!part.has_loops()) return true;
           session.note("--resume does nothing for loops of volumes: they are computed anew");
           return false;
@@ -84,7 +84,7 @@ RankResult image_of_ranks(const Job& job, Transport& transport, app::Session& se
   const bool has_loops = own && own->has_loops();
   if (has_loops && job.common.slab_layers > 0)
     session.note("--slab-layers does nothing for loops of volumes: they need all layers of a part");
-  // Takes the voxels of the part before the part is joined and destroyed.
+  // This takes the voxels of the part before the part is joined and destroyed.
   std::optional<ImageLoops> loops;
   if (has_loops) loops.emplace(*own, job.question.options.field, context);
 

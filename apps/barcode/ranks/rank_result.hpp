@@ -18,13 +18,14 @@ struct RankBars {
   BarcodeInfo info;
 };
 
-/// The result of a rank once all ranks are joined.
+/// The result of a rank after all ranks are joined.
 struct RankResult {
-  std::string kept;              ///< where --resume keeps the part of this rank; empty: not kept
-  std::optional<RankBars> bars;  ///< only on rank 0
+  /// The file in which --resume keeps the part of this rank; empty if the part is not kept.
+  std::string kept;
+  std::optional<RankBars> bars;  ///< present only on rank 0
 };
 
-/// Computes an image on all ranks, or with --dry-run prints what they will need.
+/// Computes an image on all ranks. With --dry-run, prints what the ranks will need instead.
 RankResult image_of_ranks(const Job& job, Transport& transport, app::Session& session);
 /// Computes the components of a point cloud on all ranks, with some blocks on each.
 /// @throws Error (usage) like read_cloud_input.
@@ -33,8 +34,8 @@ RankResult cloud_of_ranks(const Job& job, Transport& transport, app::Session& se
 /// The file in which --resume keeps the part of a rank.
 std::string kept_path(const Job& job, int rank, int parts);
 
-/// The part of this rank. With --resume, `find_kept` looks for the part in a file. If it finds
-/// none, `compute` makes the part, and with --resume the part is written to the file.
+/// The part of this rank. With --resume, `find_kept` looks for the part in a file. If it finds no
+/// part, `compute` makes the part. With --resume, the part is then written to the file.
 /// @param find_kept returns an optional part. @param compute returns a part.
 /// @param can_keep returns true if a file can replace a part.
 template <class FindKept, class Compute, class CanKeep>
@@ -58,7 +59,7 @@ auto kept_or_computed(const std::string& kept, const Job& job, app::Session& ses
 void explain_costs(const Post& post, app::Session& session);
 
 /// Computes an image, or the components of points, on all ranks. Each rank calls this function with
-/// the same job, and rank 0 writes the results.
+/// the same job. Rank 0 writes the results.
 /// @param wait_for_all returns once all ranks have called it.
 /// @return the exit code of this rank. @throws Error.
 int run_ranks(const Job& job, Transport& transport, const std::function<void()>& wait_for_all,

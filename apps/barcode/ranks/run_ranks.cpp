@@ -32,7 +32,8 @@ int run_ranks(const Job& job, Transport& transport, const std::function<void()>&
   std::vector<app::Written> written{{"--output", job.places.output}};
   for (const app::Plot& plot : job.places.plots) written.push_back({plot.option, plot.path});
   app::require_separate(inputs, written, job.common.force);
-  // Opened first, so that a file that cannot be created is reported before the computation.
+  // The outputs are opened first, so that a file that cannot be created is reported before the
+  // computation.
   std::optional<Outputs> outputs;
   if (transport.rank() == 0 && !job.results.dry_run) outputs.emplace(own.places);
 

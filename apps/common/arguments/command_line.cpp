@@ -33,9 +33,9 @@ std::vector<std::string> long_names(const CLI::App& app) {
   const std::string name = typed.substr(0, typed.find('='));
   const std::vector<std::string> known = long_names(app);
   const std::vector<std::string_view> views(known.begin(), known.end());
-  // Also looks up a name that was typed with one dash instead of two.
+  // A name that was typed with one dash instead of two is also looked up.
   const std::string dashed = name.starts_with("--") ? name : "-" + name;
-  // By its letters another option would be nearer, but these words mean the highest dimension.
+  // By its letters, another option would be nearer, but these words mean the highest dimension.
   const std::string_view word = std::string_view(dashed).substr(2);
   const bool is_dimension = word == "dim" || word == "maxdim" || word == "dimension";
   const auto most = std::ranges::find_if(
@@ -47,7 +47,7 @@ std::vector<std::string> long_names(const CLI::App& app) {
                                                  : "--help all lists the options"));
 }
 
-/// The message of CLI11, on one line.
+/// Puts the message of CLI11 on one line.
 std::string one_line(std::string text) {
   for (char& c : text)
     if (c == '\n') c = ' ';
@@ -55,8 +55,8 @@ std::string one_line(std::string text) {
   return text;
 }
 
-/// The message for a missing or repeated value, in our own words and with all names of the option:
-/// "--threshold, --max-scale: the value is missing".
+/// The message for a missing or repeated value, in the words of libph and with all names of the
+/// option, such as "--threshold, --max-scale: the value is missing".
 std::string about_values(const CLI::App& app, const std::string& text) {
   std::string names = text.substr(0, text.find(':'));
   if (const CLI::Option* option = app.get_option_no_throw(names)) {
@@ -69,7 +69,7 @@ std::string about_values(const CLI::App& app, const std::string& text) {
   return one_line(text);
 }
 
-/// "--output", "INPUT".
+/// Returns a name such as "--output" or "INPUT".
 std::string name_of(const CLI::Option& option) {
   const std::vector<std::string>& names = option.get_lnames();
   return names.empty() ? option.get_name() : "--" + names.front();
@@ -84,7 +84,8 @@ bool is_common(const CLI::Option& option) {
 }  // namespace
 
 void add_common_options(Options& options, CommonOptions& common) {
-  // The effect of CLI11's own flag would depend on the order of the options: it is removed.
+  // The effect of CLI11's own flag would depend on the order of the options. The flag is therefore
+  // removed.
   options.cli().set_help_flag();
   options.topic(kLimitsTopic.name);
   options.value("--threads", "N", "threads to use (default: one for each core)",
@@ -160,7 +161,7 @@ std::optional<std::string> parse_command_line(Options& options, const CommonOpti
     return program_and_version(app.get_name()) + "\n" +
            (common.verbose ? build_information() + manual.built_in() : "");
   }
-  // Checks the values of all options, because a path such as /dev/fd/4 must not stand for a
+  // The values of all options are checked, because a path such as /dev/fd/4 must not refer to a
   // descriptor that was not open at the start.
   for (const CLI::Option* option : app.get_options())
     for (const std::string& value : option->results()) require_given(name_of(*option), value);

@@ -18,14 +18,15 @@ enum class ProgressMode { automatic, bar, json, none };
 
 /// The options that all programs share.
 struct CommonOptions {
-  int threads = 0;                            ///< 0: one per core
-  std::optional<std::uint64_t> memory_limit;  ///< bytes; default: the memory of the machine
-  int slab_layers = 0;                        ///< layers of images, as in RunContext
+  int threads = 0;  ///< 0 means one per core
+  /// Bytes; the default is the memory of the machine.
+  std::optional<std::uint64_t> memory_limit;
+  int slab_layers = 0;  ///< layers of images, as in RunContext
   ProgressMode progress = ProgressMode::automatic;
-  std::optional<int> rank;  ///< stated in lines of progress
+  std::optional<int> rank;  ///< the rank that lines of progress state
   bool quiet = false;
   bool verbose = false;
-  bool force = false;               ///< outputs may replace inputs
+  bool force = false;               ///< true if outputs may replace inputs
   std::optional<std::string> help;  ///< the topic of --help
   bool version = false;
 };
@@ -41,9 +42,9 @@ std::vector<std::string> typed_command(std::string_view program, int argc, const
 std::vector<std::string> given_options(const Options& options,
                                        std::span<const std::string_view> without);
 
-/// Parses the command line; prints nothing.
-/// @return the answer to --help or --version, if one was asked for.
-/// @throws Error (usage) that names the option and the nearest known one.
+/// Parses the command line, and prints nothing.
+/// @return the answer to --help or --version, if one of these options was given.
+/// @throws Error (usage), which names the option and the nearest known option.
 std::optional<std::string> parse_command_line(Options& options, const CommonOptions& common,
                                               int argc, const char* const* argv,
                                               const Manual& manual);

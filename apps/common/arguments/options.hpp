@@ -15,20 +15,20 @@
 
 namespace ph::app {
 
-/// The names of an option, and the situations in which it has an effect: {"-o,--output", {kPoints,
-/// "points"}}.
+/// The names of an option, and the situations in which it has an effect. An example is
+/// {"-o,--output", {kPoints, "points"}}.
 struct OptionName {
   OptionName(const char* all) : names(all) {}  // NOLINT(google-explicit-constructor)
   OptionName(std::string all, Scope where = {}) : names(std::move(all)), scope(where) {}
 
-  std::string names;  ///< "-o,--output"
+  std::string names;  ///< such as "-o,--output"
   Scope scope;
 };
 
 /// Registers the options of a program. Each call states the names of an option, the situations in
 /// which it has an effect, a placeholder for its value, a sentence for --help, and the destination
-/// of the value, which must outlive `cli`. Errors of functions that read values are passed on
-/// unchanged. An option that is given twice is an error.
+/// of the value. The destination must outlive `cli`. Errors of functions that read values are
+/// passed on unchanged. An option that is given twice is an error.
 class Options {
  public:
   explicit Options(CLI::App& cli) : cli_(cli) {}
@@ -37,14 +37,14 @@ class Options {
   /// Begins a topic of --help, to which the options registered next belong.
   void topic(std::string_view name);
 
-  /// Registers the inputs: the arguments that do not belong to an option.
+  /// Registers the inputs, which are the arguments that do not belong to an option.
   void inputs(const std::string& name, const std::string& description,
               std::vector<std::string>& to);
   /// An option with a value, which `take` reads.
   CLI::Option* value(const OptionName& name, const std::string& placeholder,
                      const std::string& description,
                      const std::function<void(const std::string& value)>& take);
-  /// An option that may be given several times; `take` receives all values.
+  /// An option that may be given several times. `take` receives all values.
   CLI::Option* repeated(const OptionName& name, const std::string& placeholder,
                         const std::string& description,
                         const std::function<void(const std::vector<std::string>& values)>& take);
@@ -56,10 +56,10 @@ class Options {
   CLI::Option* flag(const OptionName& name, const std::string& description,
                     const std::function<void()>& take);
 
-  /// An option whose value is one of several names; `take` receives the position of the given name.
+  /// An option whose value is one of several names. `take` receives the position of the given name.
   CLI::Option* choice(const OptionName& name, const std::vector<std::string_view>& choices,
                       const std::string& description, const std::function<void(std::size_t)>& take);
-  /// An option whose value is one of an enum's names; `take` receives the value of the enum.
+  /// An option whose value is one of an enum's names. `take` receives the value of the enum.
   template <class Enum>
   CLI::Option* choice(const OptionName& name, const std::string& description,
                       const std::function<void(Enum)>& take,
@@ -92,7 +92,8 @@ class Options {
 
  private:
   CLI::App& cli_;
-  std::map<const CLI::Option*, Scope> scopes_;  // of options that have no effect in some situations
+  // The scopes of options that have no effect in some situations.
+  std::map<const CLI::Option*, Scope> scopes_;
 };
 
 }  // namespace ph::app

@@ -31,7 +31,7 @@ void require_known_format(const Plot& plot) {
 
 namespace {
 
-/// "LO,HI", "log" or both.
+/// Parses "LO,HI", "log" or both.
 PlotAxis parse_axis(const std::string& text) {
   PlotAxis axis;
   std::string limits = text;

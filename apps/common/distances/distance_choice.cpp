@@ -12,7 +12,8 @@
 namespace ph::app {
 namespace {
 
-/// The numbers of bars for which only the death is infinite, only the birth, and both.
+/// The numbers of bars for which only the death is infinite, only the birth is infinite, and both
+/// are infinite.
 std::array<std::size_t, 3> infinite_bars(std::span<const Bar> bars) {
   std::array<std::size_t, 3> counts{};
   for (const Bar& bar : bars) {
@@ -116,7 +117,7 @@ std::string text_of(const DistanceBounds& distance, const DistanceChoice& choice
   if (distance.lower > choice.limits.at_most)
     return fmt::format("more than {}: from {} to {}", shortest(choice.limits.at_most), lower,
                        value);
-  // Without a relative error, the bounds differ by rounding only.
+  // Without a relative error, the bounds differ only by rounding.
   // mutant: distance-exact
   if (choice.limits.relative_error > 0 && distance.lower < distance.value)
     return fmt::format("{} (at least {})", value, lower);

@@ -28,7 +28,8 @@ std::string stem(const std::string& name) {
   return dot == name.npos || dot == 0 ? name : name.substr(0, dot);
 }
 
-/// The file name prefixed by the names of its folders: "monday/../run/a.txt" is "monday-run-a.txt".
+/// The file name with the names of its folders before it. For example, "monday/../run/a.txt"
+/// becomes "monday-run-a.txt".
 std::string name_with_folders(const std::string& path) {
   std::string joined;
   for (std::size_t begin = 0; begin < path.size();) {
@@ -99,7 +100,7 @@ std::vector<std::string> files_in(const std::string& folder,
     throw Error(ErrorKind::no_input,
                 fmt::format("{}: {}", printable(folder),
                             error ? error.message() : fmt::format("a folder without {}", what)));
-  // A link may lead to a descriptor.
+  // A link may point to a descriptor.
   for (const std::string& file : files) require_given(printable(folder), file);
   std::ranges::sort(files);
   return files;

@@ -7,15 +7,17 @@
 
 namespace ph::app {
 
-/// Names for the outputs of inputs: the shortest unique name of each input, without extension, with
-/// it, or with folders. Two inputs have the same name only if the same file was named twice.
+/// Names for the outputs of inputs. Each is the shortest unique name of an input, without its
+/// extension, with its extension, or with its folders. Two inputs have the same name only if the
+/// same file was named twice.
 std::vector<std::string> output_names(const std::vector<std::string>& inputs);
 
-/// True if a path has a place for the name of each input: it is FOLDER/, or the file has a `*`.
+/// True if a path has a place for the name of each input, because it is FOLDER/ or the file name
+/// contains a `*`.
 bool names_each(const std::string& path);
 
-/// The output file for one of several inputs. If the pattern is a folder, it is a file in this
-/// folder with the name of the input; otherwise the name replaces `*`.
+/// The output file for one of several inputs. If the pattern is a folder, the output is a file in
+/// this folder with the name of the input. Otherwise the name replaces `*`.
 /// @param extension the extension of a file in a folder, with its dot.
 std::string filled(const std::string& pattern, const std::string& name, std::string_view extension);
 
@@ -25,14 +27,15 @@ void prepare_outputs(std::string_view option, const std::string& pattern);
 
 /// The files of a folder whose names end in one of these extensions, in upper or lower case, sorted
 /// by name.
-/// @param what the word for such files in the message. @throws Error (no_input) if there are none.
+/// @param what the word for these files in the message. @throws Error (no_input) if there are no
+/// such files.
 std::vector<std::string> files_in(const std::string& folder,
                                   std::span<const std::string_view> extensions,
                                   std::string_view what);
 
 bool is_folder(const std::string& path);
 
-/// Creates a folder; an existing one is fine. @throws Error (cannot_create).
+/// Creates a folder. An existing folder is not an error. @throws Error (cannot_create).
 void create_folder(const std::string& path);
 
 }  // namespace ph::app

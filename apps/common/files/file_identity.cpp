@@ -16,8 +16,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The harm that two uses of one file do: its contents are lost, or the output of two writers is
-/// mixed. A pipe or a terminal has no contents to lose, but it mixes output.
+/// The harm that results from two uses of one file. Either its contents are lost, or the outputs of
+/// two writers are mixed. A pipe or a terminal has no contents to lose, but it mixes output.
 enum class Harm { lost, mixed };
 
 bool is_null_device(const files::Status& status) {
@@ -43,7 +43,8 @@ std::optional<FileIdentity> identity_of(const std::string& path, int standard_de
   const fs::path absolute = fs::absolute(files::path_of(path), error);
   const fs::path place = fs::weakly_canonical(absolute, error);
   if (error) return std::nullopt;
-  // A batch creates folders later: the file is identified by the nearest folder that exists.
+  // A batch creates folders later. The file is therefore identified by the nearest folder that
+  // exists.
   fs::path folder = place.parent_path();
   auto status = files::status_of(folder);
   while (!status) {
@@ -104,7 +105,8 @@ void require_distinct(std::span<const Written> outputs) {
                     one.path == "-" ? "standard output" : printable(one.path), other.option));
   };
   for (const Written& output : outputs) {
-    // Two outputs on standard output are refused, whatever standard output is connected to.
+    // Two outputs on standard output are refused, regardless of what standard output is connected
+    // to.
     if (output.path == "-") {
       if (standard) reject(output, *standard);
       standard = &output;

@@ -16,8 +16,8 @@ namespace {
 constexpr std::array<std::string_view, 7> kBarcodes{".csv",   ".json",    ".ripser", ".pers",
                                                     ".dipha", ".diagram", ".npy"};
 
-/// The settings that affect the bars of an input, except the threshold, which differs from input to
-/// input. The value of a setting that the file does not state is empty.
+/// The settings that affect the bars of an input. The threshold is left out, because it differs
+/// between inputs. The value of a setting that the file does not state is empty.
 std::vector<std::pair<std::string_view, std::string>> ways_of(const BarcodeInfo& info) {
   const auto flag = [](bool is_set) { return std::string(is_set ? "true" : "false"); };
   const auto numbers = [](const std::vector<int>& all) {

@@ -14,19 +14,19 @@
 namespace ph::app {
 
 /// The inputs, with each folder replaced by its barcode files, sorted by name.
-/// @param others extensions of files that are accepted as well, with their dot: ".png".
+/// @param others the extensions of files that are also accepted, with their dot, such as ".png".
 /// @throws Error (no_input) on a folder without such files.
 std::vector<std::string> barcode_files(const std::vector<std::string>& inputs,
                                        std::span<const std::string_view> others = {});
 
-/// Opens an input. If somebody types it at a terminal, no progress is drawn meanwhile. @throws
+/// Opens an input. If somebody types it at a terminal, no progress is drawn at this time. @throws
 /// Error like Input::open.
 Input open_input(const std::string& path, Session& session,
                  Input::Excess excess = Input::Excess::refused);
 
 /// Checks that the barcodes to compare were computed in the same way, as far as their files state
-/// this (JSON files do). If the settings of a file differ from those of the first file, a note
-/// names both files and the difference.
+/// this (JSON files state it). If the settings of a file differ from the settings of the first
+/// file, a note names both files and the difference.
 class SameOrigin {
  public:
   explicit SameOrigin(Session& session) : session_(session) {}
@@ -34,15 +34,16 @@ class SameOrigin {
 
  private:
   Session& session_;
-  std::string first_name_;  // empty: no file has stated any setting
+  std::string first_name_;  // empty if no file has stated any setting
   std::vector<std::pair<std::string_view, std::string>> first_;  // option, value
   bool is_told_ = false;
 };
 
-/// Barcodes that were read; their memory is counted as long as this object lives.
+/// Barcodes that were read. Their memory is counted as long as this object lives.
 class StoredBarcodes {
  public:
-  /// @throws Error like open_input and read_barcode; Error (resource) if they do not fit.
+  /// @throws Error like open_input and read_barcode; Error (resource) if the barcodes do not fit
+  /// into memory.
   StoredBarcodes(const std::vector<std::string>& paths, Session& session);
 
   const std::vector<Barcode>& all() const { return barcodes_; }

@@ -22,8 +22,9 @@ std::string fish_line(std::string_view command, const OptionText& option) {
   if (!option.placeholder.empty()) line += values.is_file ? " -r" : " -x";
   if (values.is_file && values.extensions.empty()) line += " -F";
   std::string choices = fmt::format("{}", fmt::join(values.words, " "));
-  // Offers all files, and files with the right ending first. Each call of __fish_complete_suffix
-  // lists all files, so the first call also determines the order of the remaining files.
+  // All files are offered, and files with the right ending come first. Each call of
+  // __fish_complete_suffix lists all files, so the first call also determines the order of the
+  // remaining files.
   for (const std::string& extension : values.extensions)
     choices += fmt::format("{}(__fish_complete_suffix {})", choices.empty() ? "" : " ", extension);
   if (!values.extensions.empty()) line += " -k";

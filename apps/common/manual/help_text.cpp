@@ -14,11 +14,11 @@
 namespace ph::app {
 namespace {
 
-constexpr std::size_t kWidth = 80;  // columns of a terminal
-constexpr std::size_t kText = 27;   // column of the text beside a name
+constexpr std::size_t kWidth = 80;  // the number of columns of a terminal
+constexpr std::size_t kText = 27;   // the column of the text beside a name
 constexpr std::string_view kAll = "all";
 
-/// The topics whose text is for other programs instead of people.
+/// A topic whose text is for other programs instead of people.
 struct Page {
   std::string_view name;
   std::string (*text)(const Described& program);
@@ -27,7 +27,8 @@ constexpr std::array kPages{Page{"man", man_page}, Page{"markdown", markdown_pag
                             Page{"bash", bash_completion}, Page{"zsh", zsh_completion},
                             Page{"fish", fish_completion}};
 
-/// A name with a text beside it, or below it if the name is long or has several lines.
+/// A name with a text beside it. The text is below the name if the name is long or has several
+/// lines.
 std::string entry(std::string_view name, std::string_view text) {
   std::string lines = fmt::format("  {}", name);
   std::size_t column = name.find('\n') == name.npos ? columns_of(lines) : kWidth;
@@ -42,14 +43,15 @@ std::string entry(std::string_view name, std::string_view text) {
   return lines;
 }
 
-/// The names of an option and its placeholder, in lines if they are long.
+/// The names of an option and its placeholder, broken into lines if they are long.
 std::string head_in_lines(const OptionText& option) {
   constexpr std::size_t kIndent = 8;
   const std::vector<std::string> lines = wrapped_list(option.head(), kWidth - kIndent);
   return fmt::format("{}", fmt::join(lines, fmt::format("\n{:{}}", "", kIndent)));
 }
 
-/// The same on one line; alternatives that do not fit are left out.
+/// The names of an option and its placeholder on one line. Alternatives that do not fit are left
+/// out.
 std::string short_head(const OptionText& option) {
   constexpr std::size_t kEnough = 40;
   const std::vector<std::string> lines = wrapped_list(option.head(), kEnough);

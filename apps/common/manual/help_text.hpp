@@ -11,8 +11,8 @@ namespace ph::app {
 /// The topic that --help shows without an argument.
 inline constexpr std::string_view kUsual = "usual";
 
-/// All arguments of --help: the topics of the program, `all`, and the outputs for other programs:
-/// `man`, `markdown`, and the shells.
+/// All arguments of --help. They are the topics of the program, `all`, and the outputs for other
+/// programs, which are `man`, `markdown`, and the shells.
 std::vector<std::string_view> help_topics(const Manual& manual);
 
 /// The answer to `--help TOPIC`. @throws Error (usage) on an unknown topic, with the list of

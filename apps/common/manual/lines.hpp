@@ -13,10 +13,10 @@ std::vector<std::string_view> words_of(std::string_view text);
 /// Breaks a text at its blanks into lines of at most this many characters, unless a word is longer.
 std::vector<std::string> wrapped(std::string_view text, std::size_t columns);
 
-/// The same for a list of alternatives, a|b|c, which is broken after `|`.
+/// Does the same for a list of alternatives, a|b|c, which is broken after `|`.
 std::vector<std::string> wrapped_list(std::string_view text, std::size_t columns);
 
-/// The number of terminal columns that a UTF-8 text takes; the text must not contain wide
+/// The number of terminal columns that a UTF-8 text takes. The text must not contain wide
 /// characters.
 std::size_t columns_of(std::string_view text);
 

@@ -12,7 +12,7 @@
 namespace ph::app {
 namespace {
 
-constexpr std::size_t kSourceWidth = 76;  // columns of the lines in the page's source
+constexpr std::size_t kSourceWidth = 76;  // the number of columns of the lines in the page's source
 
 /// The roff name of the character outside ASCII at the beginning of a text. @param rest the text,
 /// from which the character is removed.
@@ -29,7 +29,7 @@ std::string special_character(std::string_view& rest) {
   return fmt::format("\\[u{:04X}]", code);
 }
 
-/// A text in roff. @param is_typed true for text to type, whose dashes are not hyphens.
+/// A text in roff. @param is_typed true for text that the user types, whose dashes are not hyphens.
 std::string roff(std::string_view text, bool is_typed) {
   std::string escaped;
   while (!text.empty()) {
@@ -51,7 +51,7 @@ std::string roff(std::string_view text, bool is_typed) {
   return escaped;
 }
 
-/// The text in lines, none of which looks like a roff request.
+/// The text in lines. No line looks like a roff request.
 std::string roff_lines(std::string_view text) {
   std::string escaped;
   for (const std::string_view word : words_of(text)) {
@@ -65,7 +65,7 @@ std::string roff_lines(std::string_view text) {
   return lines;
 }
 
-/// The names of an option in bold and its value in italics; a list of alternatives may be broken
+/// The names of an option in bold and its value in italics. A list of alternatives may be broken
 /// after `|`.
 std::string roff_head(const OptionText& option) {
   std::string head;

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kMarkdownWidth = 100;
 
-/// The option that a word begins with: "--voxel" in "--voxel;".
+/// The option that a word begins with, such as "--voxel" in "--voxel;".
 std::string_view option_in(std::string_view word) {
   if (!word.starts_with("--") || word.size() < 3) return {};
   const auto is_part = [](char c) { return (c >= 'a' && c <= 'z') || c == '-'; };

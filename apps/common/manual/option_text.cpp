@@ -43,7 +43,7 @@ OptionText text_of(const CLI::Option& option) {
   return text;
 }
 
-/// The name of the program if shell scripts can contain it; otherwise the name in the manual.
+/// The name of the program if shell scripts can contain it, otherwise the name in the manual.
 std::string command_name(std::string_view started_as, const Manual& manual) {
   const std::string_view name = started_as.substr(started_as.rfind('/') + 1);
   const auto is_plain = [](char c) {
@@ -93,7 +93,7 @@ std::string OptionText::text() const {
 }
 
 std::string OptionText::brief() const {
-  int open = 0;  // number of open parentheses
+  int open = 0;  // the number of open parentheses
   for (std::size_t i = 0; i < description.size(); ++i) {
     const std::string_view rest = std::string_view(description).substr(i);
     const bool ends = rest.starts_with("; ") || rest.starts_with(". ") ||
@@ -127,7 +127,7 @@ Described described(const CLI::App& app, const Manual& manual, std::string_view 
     if (option.name() == "--help")
       for (const std::string_view name : help_topics(manual))
         option.values.words.emplace_back(name);
-  // Topics follow the order of the manual; options within a topic follow the order of the program.
+  // Topics are in the order of the manual. Options within a topic are in the order of the program.
   const auto place = [&](const OptionText& option) {
     const auto found = std::ranges::find(manual.topics, option.topic, &Topic::name);
     if (found == manual.topics.end())

@@ -9,25 +9,30 @@
 
 namespace ph::app {
 
-/// The possible values of an option, as its placeholder states them. It is a list of alternatives,
-/// separated by `|`:
+/// The possible values of an option, as its placeholder states them. The placeholder is a list of
+/// alternatives, separated by `|`. Each alternative has one of these forms:
 ///
-/// * `auto`: a word, typed literally; `minkowski:P`: a word with a suffix,
-/// * `FILE`: a path; `FILE.svg|.png`: a path with one of these endings,
-/// * anything else (`N`, `LO,HI`): a value that cannot be completed.
+/// * `auto` is a word, typed literally; `minkowski:P` is a word with a suffix,
+/// * `FILE` is a path; `FILE.svg|.png` is a path with one of these endings,
+/// * anything else (`N`, `LO,HI`) is a value that cannot be completed.
 struct Values {
-  std::vector<std::string> words;       ///< "auto"; for `minkowski:P` "minkowski:"
-  std::vector<std::string> extensions;  ///< ".svg"; none: any
-  bool is_file = false;                 ///< it may be a path
+  /// Such as "auto"; for `minkowski:P`, the word is "minkowski:".
+  std::vector<std::string> words;
+  /// Such as ".svg"; if there are none, any extension is accepted.
+  std::vector<std::string> extensions;
+  bool is_file = false;  ///< true if the value may be a path
 };
 Values values_of(std::string_view placeholder);
 
 /// An option from the user's point of view.
 struct OptionText {
-  std::vector<std::string> names;     ///< "-o", "--output"; "INPUT" for the inputs
-  std::string placeholder;            ///< placeholder of its value; empty: a flag
-  std::string description;            ///< sentences, the last one without its full stop
-  std::string topic;                  ///< name of a Topic
+  /// Such as "-o" and "--output"; "INPUT" for the inputs.
+  std::vector<std::string> names;
+  /// The placeholder of the value; empty if the option is a flag.
+  std::string placeholder;
+  /// Sentences, of which the last has no full stop.
+  std::string description;
+  std::string topic;                  ///< the name of a Topic
   Values values;                      ///< the alternatives that the placeholder states
   std::vector<std::string> excludes;  ///< related options, in alphabetical order
   bool is_input = false;
@@ -35,7 +40,7 @@ struct OptionText {
 
   /// The first long name of the option, or the name of the inputs.
   const std::string& name() const;
-  /// "-o,--output FILE"
+  /// Returns a text such as "-o,--output FILE".
   std::string head() const;
   /// The description, with the options that this option excludes.
   std::string text() const;
@@ -55,7 +60,7 @@ struct Described {
   const OptionText& named(std::string_view name) const;
 };
 
-/// The full description of a program; options without a group are left out.
+/// The full description of a program. Options without a group are left out.
 /// @param command the name under which it was started, with or without a path.
 Described described(const CLI::App& app, const Manual& manual, std::string_view command);
 

@@ -23,7 +23,7 @@ else
 fi
 )";
 
-/// The completion of a value: the part after `message:` in a specification of _arguments.
+/// The completion of a value, which is the part after `message:` in a specification of _arguments.
 std::string zsh_action(const Values& values) {
   std::string files = "_files";
   if (!values.extensions.empty()) {
@@ -48,7 +48,7 @@ std::string zsh_value(const OptionText& option) {
   if (option.placeholder.empty()) return "";
   const Values& values = option.values;
   std::string text;
-  // A placeholder of several words stands for several values.
+  // A placeholder of several words represents several values.
   for (const std::string_view word : words_of(option.placeholder)) {
     const std::string_view message = values.is_file         ? "file"
                                      : values.words.empty() ? word
@@ -58,7 +58,8 @@ std::string zsh_value(const OptionText& option) {
   return text;
 }
 
-/// "'(-o --output)'{-o+,--output=}'[where the barcode goes]:file:_files'"
+/// Returns a specification such as "'(-o --output)'{-o+,--output=}'[where the barcode
+/// goes]:file:_files'".
 std::string zsh_spec(const OptionText& option) {
   if (option.is_input) return fmt::format("'*:{}:_files'", option.name());
   std::vector<std::string> excluded = option.excludes, typed;

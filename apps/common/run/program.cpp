@@ -51,7 +51,7 @@ int report_with_memory(std::string_view prefix, std::string_view memory_advice) 
     return report(fmt::format("out of memory: a container would be too large; {}", memory_advice),
                   kResource);
   } catch (const std::system_error& error) {
-    // Thrown by threads if the system has no room for another one.
+    // Threads throw this error if the system has no room for another thread.
     if (error.code() == std::errc::resource_unavailable_try_again)
       return report("cannot create a thread; use fewer threads (--threads)", kResource);
     return report(fmt::format("internal error: {}; please report", error.what()), kInternal);
@@ -70,7 +70,7 @@ int report_current_exception(const Program& program, std::string_view subject) {
         fmt::format("{}{}{}", program.name, subject.empty() ? "" : ": ", subject);
     return report_with_memory(prefix, program.memory_advice);
   } catch (...) {
-    // Not even a message fits into memory: this one needs none.
+    // There is no memory for any message, so this message is printed without using memory.
     print_without_memory(program.name, "out of memory");
     return kResource;
   }

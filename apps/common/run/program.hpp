@@ -10,18 +10,19 @@ namespace ph::app {
 /// The facts about a program that its messages need.
 struct Program {
   std::string_view name;
-  std::string_view memory_advice;  ///< hint for when memory runs out: options that the program has
+  /// A hint for when memory runs out, which names options that the program has.
+  std::string_view memory_advice;
 };
 
-/// Runs the body of a program and turns any outcome into an exit code and at most one line on
-/// stderr: `name: what`. SIGINT, SIGTERM and SIGHUP request a stop through the token that the body
-/// receives. The program ends within 0.2 s even if the body ignores the token, and on a second
-/// signal it ends at once. SIGPIPE is ignored; a broken pipe ends the program quietly.
+/// Runs the body of a program, and turns any outcome into an exit code and at most one line on
+/// stderr, `name: what`. SIGINT, SIGTERM and SIGHUP request a stop through the token that the body
+/// receives. The program ends within 0.2 s even if the body ignores the token. On a second signal,
+/// it ends at once. SIGPIPE is ignored. A broken pipe ends the program without a message.
 int run_program(const Program& program, const std::function<int(std::stop_token)>& body);
 
-/// The exit code of the exception in flight. Reports the exception on stderr as `name: subject:
-/// what`, unless it is a broken pipe or a stop request. Programs that continue with the next input
-/// call it.
+/// Returns the exit code of the current exception. Reports the exception on stderr as `name:
+/// subject: what`, unless it is a broken pipe or a stop request. Programs that continue with the
+/// next input call this function.
 int report_current_exception(const Program& program, std::string_view subject = {});
 
 }  // namespace ph::app

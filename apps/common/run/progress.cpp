@@ -31,7 +31,8 @@ ProgressReporter::ProgressReporter(ProgressMode mode, bool quiet, std::optional<
   try {
     repeater_ = std::jthread([this](const std::stop_token& stop) { repeat(stop); });
   } catch (const std::system_error&) {
-    return;  // the system has no thread left: only reports are shown
+    // The system has no thread left, so only reports are shown.
+    return;
   }
 }
 
@@ -60,7 +61,7 @@ void ProgressReporter::release() {
   has_report_ = false;
 }
 
-/// The caller holds the mutex.
+/// Must be called by a thread that has locked the mutex.
 void ProgressReporter::show() {
   last_shown_ = Clock::now();
   if (mode_ == ProgressMode::json) {

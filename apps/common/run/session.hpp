@@ -25,15 +25,16 @@ class Session {
   const RunContext& context() const { return context_; }
   const CommonOptions& options() const { return options_; }
 
-  /// The largest resident memory so far, beyond its value at the start; bytes.
+  /// The largest resident memory so far, beyond its value at the start, in bytes.
   std::uint64_t memory_taken() const;
 
-  /// Writes one line to stderr in the form of the programs: `program: text`. Silent with --quiet.
+  /// Writes one line to stderr in the form `program: text`, which all programs use. With --quiet,
+  /// writes nothing.
   void note(const Message& text);
-  /// Writes such a line only with --verbose.
+  /// Writes a line in the same form, but only with --verbose.
   void explain(const Message& text);
 
-  /// To be called after a run that reached the memory limit, see HeapBound::loosen.
+  /// Must be called after a run that reached the memory limit (see HeapBound::loosen).
   void loosen_heap_bound() { heap_.loosen(); }
 
  private:
@@ -47,9 +48,9 @@ class Session {
   std::uint64_t memory_at_start_;
 };
 
-/// While this object lives, and afterwards until the next report, no progress bar is drawn. It is
-/// used while results are written, which may go to the same terminal, while input is typed, and
-/// while the next step is unknown.
+/// While this object lives, and afterwards until the next report, no progress bar is drawn. The
+/// object is used while results are written, because they may be written to the same terminal. It
+/// is also used while input is typed, and while the next step is unknown.
 class BarHold {
  public:
   explicit BarHold(Session& session);
@@ -65,8 +66,9 @@ class BarHold {
 /// input.
 bool is_typed(std::initializer_list<std::string_view> paths);
 
-/// An output file whose temporary name is removed even if a signal ends the program at once. Open
-/// outputs before long computations, so that failures to create them are reported first.
+/// An output file whose temporary name is removed even if a signal ends the program at once.
+/// Outputs should be opened before long computations, so that failures to create them are reported
+/// first.
 class Output {
  public:
   explicit Output(const std::string& path);
@@ -80,7 +82,7 @@ class Output {
 
  private:
   OutputFile file_;
-  int slot_ = -1;  // index in the table of names to remove
+  int slot_ = -1;  // the index in the table of names to remove
 };
 
 }  // namespace ph::app

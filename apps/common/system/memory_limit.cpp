@@ -11,7 +11,7 @@
 namespace ph::app {
 namespace {
 
-// Sanitizers map far more memory than the program requests.
+// Sanitizers map much more memory than the program requests.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 constexpr bool kIsSanitized = true;
 #else
@@ -30,7 +30,7 @@ HeapBound::~HeapBound() {
 }
 
 void HeapBound::bound(std::size_t bytes) {
-  // Reserve for small blocks, the allocator's own data and stacks of threads.
+  // This reserve is for small blocks, the allocator's own data and stacks of threads.
   constexpr std::uint64_t slack = std::uint64_t{16} << 20;
   const auto now = status_bytes("VmData:");  // the memory that RLIMIT_DATA counts
   std::uint64_t limit = 0;

@@ -6,9 +6,9 @@
 
 namespace ph::app {
 
-/// Makes the kernel refuse memory. The budget of a RunContext counts only large containers; this
-/// limit bounds all other memory. An allocation beyond it fails with std::bad_alloc. The limit with
-/// which the process was started is never exceeded, and is restored at the end.
+/// Makes the kernel refuse memory. The budget of a RunContext counts only large containers. This
+/// limit bounds all other memory. An allocation beyond the limit fails with std::bad_alloc. The
+/// limit with which the process was started is never exceeded, and is restored at the end.
 class HeapBound {
  public:
   HeapBound();
@@ -18,15 +18,16 @@ class HeapBound {
 
   /// Limits the memory of the process to `bytes` more than it has now.
   void bound(std::size_t bytes);
-  /// Raises the limit a little, for good. After a run that reached the limit, the gaps between
-  /// blocks that are still in use are lost to the next run.
+  /// Raises the limit a little, permanently. This is needed because, after a run that reached the
+  /// limit, the next run cannot use the gaps between blocks that are still in use.
   void loosen();
 
  private:
   void set(std::uint64_t limit) const;
 
-  std::optional<std::uint64_t> at_start_;  // empty: it is unknown, and there is no limit
-  std::optional<std::uint64_t> bound_;     // the limit that was set, if it is lower
+  std::optional<std::uint64_t> at_start_;  // empty if it is unknown, and there is no limit
+  // The limit that was set, if it is lower.
+  std::optional<std::uint64_t> bound_;
 };
 
 }  // namespace ph::app

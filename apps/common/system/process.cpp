@@ -12,19 +12,21 @@
 namespace ph::app {
 namespace {
 
-/// Occupies the standard descriptors that the caller closed, so that no file we open becomes
-/// "standard output" by accident. Each is opened for the wrong direction on purpose: using it is an
-/// error.
+/// Occupies the standard descriptors that the caller closed, so that no file that the program opens
+/// becomes "standard output" by accident. Each descriptor is deliberately opened for the wrong
+/// direction, so that using it is an error.
 void occupy_standard_descriptors() {
   for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
     if (fcntl(descriptor, F_GETFD) < 0 &&
         open("/dev/null", descriptor == STDIN_FILENO ? O_WRONLY : O_RDONLY) < 0)
-      static_cast<void>(open("/", O_PATH));  // always exists, is neither read nor written
+      // This path always exists, and is neither read nor written.
+      static_cast<void>(open("/", O_PATH));
 }
 
-/// Keeps freed blocks up to a certain size for the next stage, because mapping and faulting in each
-/// block anew would cost a short run a tenth of its time. Larger blocks are returned to the system,
-/// because growing vectors would otherwise leave holes that the budget does not count.
+/// Keeps freed blocks up to a certain size for the next stage, because mapping each block again and
+/// the resulting page faults would cost a short run a tenth of its time. Larger blocks are returned
+/// to the system, because growing vectors would otherwise leave holes that the budget does not
+/// count.
 void keep_freed_memory() {
   mallopt(M_MMAP_THRESHOLD, 4 << 20);
   mallopt(M_TRIM_THRESHOLD, 256 << 20);

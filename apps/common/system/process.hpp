@@ -4,7 +4,7 @@
 
 namespace ph::app {
 
-/// Prepares the process. The standard descriptors are open and pass bytes unchanged. If nobody
+/// Prepares the process. The standard descriptors are then open and pass bytes unchanged. If nobody
 /// reads an output, or if a disk is full, the program gets an error instead of a signal. The
 /// allocator keeps freed blocks.
 void prepare_process();
@@ -16,7 +16,7 @@ bool is_given(int descriptor);
 /// Makes the allocator return all freed blocks.
 void give_back_freed_memory();
 
-/// The largest resident memory of the process so far, bytes.
+/// The largest resident memory of the process so far, in bytes.
 std::uint64_t peak_memory();
 
 }  // namespace ph::app

@@ -20,8 +20,8 @@
 namespace ph::app {
 namespace {
 
-// A handler may touch only lock-free atomics and memory that does not move, so these are globals;
-// like signals, they belong to the process.
+// A handler may use only lock-free atomics and memory that does not move. These are therefore
+// globals. Like signals, they belong to the process.
 constexpr std::array kSignals{SIGINT, SIGTERM, SIGHUP};
 
 std::atomic<int> first_signal{0};
@@ -35,7 +35,8 @@ std::string_view program_name;
 
 static_assert(std::atomic<int>::is_always_lock_free);
 
-// Never runs on a thread that is waited for, because that thread has signals blocked.
+// This function never runs on a thread that another thread waits for, because such a thread has
+// signals blocked.
 [[noreturn]] void end_at_once(int signal) {
   while (must_wait.load()) {
     const timespec millisecond{0, 1'000'000};
@@ -55,9 +56,10 @@ void on_signal(int signal) {
   errno = saved;
 }
 
-/// This signal comes at the instruction that reads, never within a message or a system call.
+/// This signal arrives at the instruction that reads, never within a message or a system call.
 void on_lost_page(int signal, siginfo_t* what, void*) {
-  if (what->si_code != BUS_ADRERR) {  // a bug of the program: behave as if there were no handler
+  // A bug of the program, which has the same effect as without a handler.
+  if (what->si_code != BUS_ADRERR) {
     std::signal(signal, SIG_DFL);
     return;
   }
@@ -84,7 +86,8 @@ SignalWatch::SignalWatch() {
       thread_ = std::thread([this] { watch(); });
       wake_descriptor = pipe_ends[1];
     } catch (const std::system_error&) {
-      // No room for a thread: without a descriptor to wake, the handler ends the process itself.
+      // There is no room for a thread. Without a descriptor to wake it, the handler ends the
+      // process itself.
     }
   }
   struct sigaction action {};
@@ -93,8 +96,8 @@ SignalWatch::SignalWatch() {
   sigemptyset(&action.sa_mask);
   for (const int signal : kSignals) {
     struct sigaction was {};
-    // nohup, and shells for their background jobs, start the program with signals that are ignored.
-    // Such signals stay ignored.
+    // The program may be started with signals that are ignored, by nohup and by shells for their
+    // background jobs. These signals stay ignored.
     if (sigaction(signal, nullptr, &was) == 0 && was.sa_handler == SIG_IGN) continue;
     sigaction(signal, &action, nullptr);
   }
@@ -103,13 +106,13 @@ SignalWatch::SignalWatch() {
 SignalWatch::~SignalWatch() {
   if (!thread_.joinable()) return;
   const char byte = 0;
-  if (write(pipe_ends[1], &byte, 1) != 1) {  // closing the pipe wakes the thread as well
+  if (write(pipe_ends[1], &byte, 1) != 1) {  // closing the pipe also wakes the thread
     wake_descriptor = -1;
     close(pipe_ends[1]);
   }
   thread_.join();
-  // The handler stays installed and may still write one byte: the pipe lives as long as the
-  // process.
+  // The handler stays installed and may still write one byte. The pipe therefore lives as long as
+  // the process.
 }
 
 int SignalWatch::received() { return first_signal.load(); }
@@ -124,8 +127,8 @@ void SignalWatch::watch() {
   if (got != 1 || byte == 0) return;
   stop_.request_stop();
   // Unwinding normally takes a few milliseconds and ends with the byte 0 from the destructor.
-  // Anything longer is cut short: returning gigabytes to the system takes time as well, and
-  // everything together must not take 0.2 s.
+  // Longer unwinding is interrupted. Returning gigabytes to the system also takes time, and all of
+  // this together must take less than 0.2 s.
   pollfd done{pipe_ends[0], POLLIN, 0};
   int ready = 0;
   do {

@@ -7,10 +7,10 @@
 
 namespace ph::app {
 
-/// While this object lives, SIGINT, SIGTERM and SIGHUP become a stop request; at most one such
+/// While this object lives, SIGINT, SIGTERM and SIGHUP become a stop request. At most one such
 /// object exists at a time. The first signal requests a stop. If the process still exists 0.06 s
-/// later, or on a second signal, it ends at once: registered temporary files are removed, and
-/// nothing is unwound. If no thread can be created, the first signal ends the process.
+/// later, or on a second signal, it ends at once. In this case, registered temporary files are
+/// removed, and nothing is unwound. If no thread can be created, the first signal ends the process.
 class SignalWatch {
  public:
   SignalWatch();
@@ -19,7 +19,7 @@ class SignalWatch {
   SignalWatch& operator=(const SignalWatch&) = delete;
 
   std::stop_token token() const { return stop_.get_token(); }
-  /// The first signal received; 0: none.
+  /// The first signal received, or 0 if no signal was received.
   static int received();
 
  private:
@@ -29,9 +29,8 @@ class SignalWatch {
   std::thread thread_;
 };
 
-/// While this object lives, signals do not end the process. It covers the moments at which a file
-/// that signals must remove is not yet registered. Only one thread at a time may have such an
-/// object.
+/// While this object lives, signals do not end the process. It is used at times when a file that
+/// signals must remove is not registered yet. Only one thread at a time may have such an object.
 class SignalsWait {
  public:
   SignalsWait();
@@ -40,13 +39,13 @@ class SignalsWait {
   SignalsWait& operator=(const SignalsWait&) = delete;
 };
 
-/// Makes the process end with kIo and one line if, from now on, it reads mapped bytes of a file
-/// that no longer exist, because the file was shortened or its disk failed. Registered temporary
-/// files are removed. @param program named in the message; lives as long as the process.
+/// From now on, the process ends with kIo and one line if it reads mapped bytes of a file that no
+/// longer exist, because the file was shortened or its disk failed. Registered temporary files are
+/// then removed. @param program the name in the message, which must live as long as the process.
 void end_where_mapped_files_shrink(std::string_view program);
 
 /// Registers a file to be removed if a signal ends the process at once. @return a slot for
-/// unregistering it; -1 if the name is empty or too long, or if there are too many.
+/// unregistering it, or -1 if the name is empty or too long, or if there are too many files.
 int remember_temporary(const std::string& path);
 void forget_temporary(int slot);
 

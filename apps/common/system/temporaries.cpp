@@ -13,13 +13,14 @@
 namespace ph::app {
 namespace {
 
-// A handler may touch only lock-free atomics and memory that does not move, so these are globals;
-// like signals, they belong to the process.
+// A handler may use only lock-free atomics and memory that does not move. These are therefore
+// globals. Like signals, they belong to the process.
 constexpr std::size_t kSlots = 64;
 constexpr std::size_t kLongestName = 4096;
 
 std::array<std::array<char, kLongestName>, kSlots> temporary_names;
-std::array<std::atomic<int>, kSlots> slot_state;  // 0: free, 1: being filled, 2: in use
+// 0 means free, 1 being filled, and 2 in use.
+std::array<std::atomic<int>, kSlots> slot_state;
 
 static_assert(std::atomic<int>::is_always_lock_free);
 

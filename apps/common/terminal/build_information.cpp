@@ -58,7 +58,7 @@ std::string build_information() {
   line("fmt", fmt_version());
   line("CLI11", CLI11_VERSION);
   line("linked", PH_IS_STATIC ? "statically" : "dynamically");
-  // The version of the library in use; a shared one may be newer than its headers.
+  // This is the version of the library in use. A shared library may be newer than its headers.
   line("libpng", png_get_libpng_ver(nullptr));
   line("PNG plots", png_plot_support().empty() ? "no" : png_plot_support());
   line("zlib", zlibVersion());

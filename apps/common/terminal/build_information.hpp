@@ -4,11 +4,11 @@
 
 namespace ph::app {
 
-/// The part of --version --verbose that all programs share: compiler, build, libraries; one per
-/// line.
+/// The part of --version --verbose that all programs share. It states the compiler, the build and
+/// the libraries, one per line.
 std::string build_information();
 
-/// "ph-barcode 0.1.0"
+/// Returns a text such as "ph-barcode 0.1.0".
 std::string program_and_version(const std::string& program);
 
 }  // namespace ph::app

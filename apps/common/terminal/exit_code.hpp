@@ -7,8 +7,8 @@
 
 namespace ph::app {
 
-/// The codes that the programs return to the shell: sysexits and the shell's own numbers for
-/// signals.
+/// The codes that the programs return to the shell. They are the codes of sysexits and the shell's
+/// own numbers for signals.
 enum ExitCode : int {
   kOk = 0,
   kDifference = 1,  ///< a check found a difference; the result is written anyway
@@ -25,10 +25,10 @@ enum ExitCode : int {
   kTerminated = 143,
 };
 
-/// The exit code of a kind of error; a cancelled run counts as interrupted.
+/// The exit code of a kind of error. A cancelled run counts as interrupted.
 int exit_code(ErrorKind kind);
 
-/// The meaning of a code, for users: a sentence without its full stop.
+/// The meaning of a code for users, as a sentence without its full stop.
 struct ExitStatus {
   ExitCode code;
   std::string_view what;

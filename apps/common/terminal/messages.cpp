@@ -12,11 +12,11 @@ namespace {
 
 constexpr std::string_view kWipe = "\r\x1b[K";
 
-// There is one per process, as there is one standard error.
+// There is one mutex for each process, because there is one standard error.
 std::mutex mutex;
 bool status_is_shown = false;
 
-/// The caller holds the mutex.
+/// Must be called by a thread that has locked the mutex.
 void write_all(std::string_view rest) {
   while (!rest.empty()) {
     const std::ptrdiff_t written =
@@ -26,7 +26,7 @@ void write_all(std::string_view rest) {
   }
 }
 
-/// The caller holds the mutex.
+/// Must be called by a thread that has locked the mutex.
 void wipe() {
   if (status_is_shown) write_all(kWipe);
   status_is_shown = false;
@@ -35,7 +35,7 @@ void wipe() {
 }  // namespace
 
 void print_line(std::string_view line) {
-  // A name of 4096 bytes, all of them escaped, must not hide the text after it.
+  // A name of 4096 bytes, all of which are escaped, must not hide the text after it.
   constexpr std::size_t longest = std::size_t{1} << 15;
   const std::string text = printable(line, longest) + "\n";
   const std::scoped_lock lock(mutex);

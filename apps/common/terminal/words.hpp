@@ -6,10 +6,10 @@
 
 namespace ph::app {
 
-/// The option for a setting, without its dashes: "max-dim".
+/// The option for a setting, without its dashes, such as "max-dim".
 std::string option_name(Setting setting);
 
-/// Settings as options: "--nan drop".
+/// Writes settings as options, such as "--nan drop".
 extern const Words kWords;
 
 }  // namespace ph::app

@@ -34,7 +34,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 
 std::optional<std::string_view> nearest_name(std::string_view typed,
                                              std::span<const std::string_view> names) {
-  // Nobody mistypes longer words; the limit bounds the cost.
+  // Nobody mistypes longer words. The limit bounds the cost.
   constexpr std::size_t kLongestWord = 64;
   if (typed.empty() || typed.size() > kLongestWord) return std::nullopt;
   const auto word_of = [](std::string_view name) {
@@ -44,8 +44,8 @@ std::optional<std::string_view> nearest_name(std::string_view typed,
   std::optional<std::string_view> best;
   std::size_t best_distance = 0;
   for (const std::string_view name : names) {
-    // A beginning or an end of a name ("--max" for "--max-dim") counts as one edit; so does an
-    // extra word before an option's name ("--plot-title" for "--title").
+    // A beginning or an end of a name ("--max" for "--max-dim") counts as one edit. An extra word
+    // before an option's name ("--plot-title" for "--title") also counts as one edit.
     const std::string_view known = word_of(name);
     const bool part = (word.size() >= 3 && (known.starts_with(word) || known.ends_with(word))) ||
                       (name.starts_with("--") && word.size() > known.size() + 1 &&
@@ -56,7 +56,7 @@ std::optional<std::string_view> nearest_name(std::string_view typed,
       best_distance = distance;
     }
   }
-  // At least two thirds of the typed letters must be right, and at most two wrong.
+  // At least two thirds of the typed letters must be right, and at most two letters may be wrong.
   const std::size_t enough = std::clamp<std::size_t>(word.size() / 3, 1, 2);  // mutant: hint-far
   if (best_distance > enough) return std::nullopt;
   return best;

@@ -8,7 +8,7 @@
 
 namespace ph::app {
 
-/// The name most similar to the typed one, if it is similar enough to be what the user meant.
+/// The name most similar to the typed name, if it is similar enough to be what the user meant.
 std::optional<std::string_view> nearest_name(std::string_view typed,
                                              std::span<const std::string_view> names);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-// Declares the classes of CLI11: its header takes seconds to compile, and few files call it.
+// This header declares the classes of CLI11, because the header of CLI11 takes seconds to compile
+// and few files call it.
 
 namespace CLI {
 

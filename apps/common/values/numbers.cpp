@@ -19,8 +19,8 @@ namespace {
                                             expected, hint.empty() ? "" : "; ", hint));
 }
 
-/// The number that from_chars reads from a text, and how many characters it used; an optional '+'
-/// is accepted.
+/// The number that from_chars reads from a text, and the number of characters that it used. An
+/// optional '+' is accepted.
 struct Read {
   double value = 0;
   std::string_view rest;

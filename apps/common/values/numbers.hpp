@@ -8,24 +8,26 @@
 
 namespace ph::app {
 
-// Values of options as the user typed them. The parsing is strict, and the same in every locale.
-// All functions throw ph::Error (usage) that names the option, what was found and what was
-// expected.
+// Functions that read values of options as the user typed them. The parsing is strict, and the same
+// in every locale. All functions throw ph::Error (usage), which names the option, what was found
+// and what was expected.
 
-/// A number; `inf` is accepted, NaN is not.
+/// A number. `inf` is accepted, but NaN is not.
 double parse_number(std::string_view option, std::string_view text);
-/// Several numbers separated by commas. @param count the required number of values; 0: one or more.
+/// Several numbers separated by commas. @param count the required number of values; 0 means one or
+/// more.
 std::vector<double> parse_numbers(std::string_view option, std::string_view text,
                                   std::size_t count = 0);
 /// A whole number from `least` to `most`.
 std::int64_t parse_integer(std::string_view option, std::string_view text, std::int64_t least,
                            std::int64_t most = INT64_MAX);
-/// Several whole numbers separated by commas, at least one.
+/// One or more whole numbers separated by commas.
 std::vector<std::int64_t> parse_integers(std::string_view option, std::string_view text,
                                          std::int64_t least, std::int64_t most = INT64_MAX);
-/// A number of bytes: `4GiB`, `500MB`, `1e9`, `64k` (binary: Ki Mi Gi Ti; decimal: k M G T).
+/// A number of bytes, such as `4GiB`, `500MB`, `1e9` or `64k`. Binary units are Ki Mi Gi Ti, and
+/// decimal units are k M G T.
 std::uint64_t parse_size(std::string_view option, std::string_view text);
-/// "57 bars"
+/// Returns a text such as "57 bars".
 std::string count_of(std::size_t count, std::string_view what);
 
 }  // namespace ph::app

@@ -21,7 +21,7 @@ using app::DistanceKind;
 using app::parse_integer;
 using app::parse_number;
 
-constexpr std::int64_t kMost = std::int64_t{1} << 30;  // largest accepted count
+constexpr std::int64_t kMost = std::int64_t{1} << 30;  // the largest accepted count
 
 [[noreturn]] void reject(const std::string& what) { throw Error(ErrorKind::usage, what); }
 
@@ -144,7 +144,8 @@ void add_output_options(app::Options& options, Arguments& a) {
                 });
 }
 
-/// @throws Error (usage) on a name with another format. @param expected "FILE.npy or FILE.csv".
+/// @throws Error (usage) if the name has another format. @param expected such as "FILE.npy or
+/// FILE.csv".
 void require_format(const char* option, const std::string& path,
                     std::initializer_list<BarcodeFormat> formats, const char* expected) {
   if (path.empty() || path == "-") return;
@@ -154,7 +155,7 @@ void require_format(const char* option, const std::string& path,
         fmt::format("{}: found {}, expected {}, or - for CSV", option, printable(path), expected));
 }
 
-/// @throws Error (usage) on a name with a format that cannot hold distances.
+/// @throws Error (usage) if the name has a format that cannot contain distances.
 void require_table_format(const Arguments& a) {
   if (!a.output || a.output_format) return;  // mutant: text-as-array
   const auto format = barcode_format_of_path(*a.output);

@@ -9,7 +9,7 @@ namespace ph::distance_program {
 constexpr app::Situations situation_of(app::DistanceKind kind) {
   return 1U << static_cast<unsigned>(kind);
 }
-/// The situations of a run: the number of barcodes and the requested results.
+/// The situations of a run, which are the number of barcodes and the requested results.
 inline constexpr app::Situations kTwo = 1U << 3, kMany = 1U << 4, kGroups = 1U << 5,
                                  kNoGroups = 1U << 6, kMatching = 1U << 7;
 

@@ -26,7 +26,7 @@ std::pmr::vector<Task> tasks_of(const std::vector<Barcode>& barcodes,
     for (std::uint32_t a = 0; a < barcodes.size(); ++a)
       for (std::uint32_t b = 0; b < a; ++b) tasks.push_back({bars[a] + bars[b], d, a, b});
   }
-  // The longest task comes first, so that no thread starts a long one last.
+  // The longest task comes first, so that no thread starts a long task last.
   std::ranges::sort(tasks, std::ranges::greater(), &Task::bars);
   return tasks;
 }
@@ -47,7 +47,8 @@ PairDistances distances_of(const std::vector<Barcode>& barcodes, std::vector<int
   const std::pmr::vector<Task> tasks = tasks_of(barcodes, distances, context);
   const auto find = [&](const Task& task, const RunContext& its_context) {
     const int dim = distances.dims()[task.dim];
-    // Diagrams are passed in the order of the inputs, so that an error names the first faulty one.
+    // Diagrams are passed in the order of the inputs, so that an error names the first faulty
+    // diagram.
     // mutant: pair-order
     distances.at(task.dim, task.a, task.b) = app::distance_of(
         barcodes[task.b].bars(dim), barcodes[task.a].bars(dim), choice, its_context);

@@ -12,7 +12,7 @@ namespace ph::distance_program {
 /// The distance between each pair of barcodes, for each of several dimensions.
 class PairDistances {
  public:
-  /// @param count number of barcodes, at least 2.
+  /// @param count the number of barcodes, at least 2.
   PairDistances(std::size_t count, std::vector<int> dims, std::pmr::memory_resource* memory)
       : count_(count), dims_(std::move(dims)), bounds_(memory) {
     bounds_.resize(dims_.size() * pairs());
@@ -21,7 +21,8 @@ class PairDistances {
   std::size_t count() const { return count_; }
   const std::vector<int>& dims() const { return dims_; }
   std::size_t pairs() const { return count_ * (count_ - 1) / 2; }
-  /// The distance of the barcodes a and b, b < a. @param dim the index of the dimension in dims().
+  /// The distance of the barcodes a and b, where b < a. @param dim the index of the dimension in
+  /// dims().
   DistanceBounds& at(std::size_t dim, std::size_t a, std::size_t b) {
     return bounds_[dim * pairs() + a * (a - 1) / 2 + b];
   }
@@ -34,11 +35,12 @@ class PairDistances {
  private:
   std::size_t count_;
   std::vector<int> dims_;
-  std::pmr::vector<DistanceBounds> bounds_;  // by dimension, then by row of the lower triangle
+  // Sorted by dimension, then by row of the lower triangle.
+  std::pmr::vector<DistanceBounds> bounds_;
 };
 
-/// Computes the distances of all pairs. Threads share the pairs, those with the most bars first;
-/// the result does not depend on the number of threads.
+/// Computes the distances of all pairs. Threads share the pairs, and pairs with the most bars come
+/// first. The result does not depend on the number of threads.
 /// @throws Error like the functions of ph/distances.hpp.
 PairDistances distances_of(const std::vector<Barcode>& barcodes, std::vector<int> dims,
                            const app::DistanceChoice& choice, const RunContext& context);

@@ -18,7 +18,7 @@ std::vector<PermutationTest> tests_of(const PairDistances& distances, const Grou
                                       const std::vector<std::string>& inputs,
                                       const Arguments& arguments, const RunContext& context);
 
-/// Writes the tests, one per dimension; in JSON with the distances.
+/// Writes the tests, one for each dimension. In JSON, the distances are also written.
 void write_tests(OutputFile& file, const std::vector<PermutationTest>& tests,
                  const PairDistances& distances, const Groups& groups,
                  const std::vector<std::string>& inputs, const Arguments& arguments);

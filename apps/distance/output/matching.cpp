@@ -14,14 +14,15 @@
 namespace ph::distance_program {
 namespace {
 
-/// Two bars, one of each barcode, or a bar and a point of the diagonal.
+/// Two bars, one from each barcode, or a bar and a point of the diagonal.
 struct Pair {
-  std::array<std::int64_t, 2> places;  // index among the bars of the dimension; -1: the diagonal
+  // The index among the bars of the dimension; -1 means the diagonal.
+  std::array<std::int64_t, 2> places;
   std::array<std::array<double, 2>, 2> ends;
   double cost;
 };
 
-/// The difference; 0 if both are infinite.
+/// The difference of two numbers, or 0 if both numbers are infinite.
 double difference(double x, double y) { return x == y ? 0 : x - y; }  // mutant: matching-infinite
 
 Pair pair_of(const DimMatching& m, std::size_t k, double ground) {

@@ -14,7 +14,7 @@
 namespace ph::distance_program {
 namespace {
 
-/// Calls `use(dim, a, b, bounds)` for all pairs of indices, a < b.
+/// Calls `use(dim, a, b, bounds)` for all pairs of indices a < b.
 template <class Use>
 void for_each(const PairDistances& distances, Use&& use) {
   for (std::size_t dim = 0; dim < distances.dims().size(); ++dim)

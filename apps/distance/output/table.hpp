@@ -17,7 +17,7 @@ std::string choice_cells(const app::DistanceChoice& choice);
 /// @param format the name of the format.
 std::string document_members(std::string_view format, const app::DistanceChoice& choice,
                              const std::vector<std::string>& inputs);
-/// The first line of text: "bottleneck distance (…) of a.csv and b.csv".
+/// The first line of text, such as "bottleneck distance (…) of a.csv and b.csv".
 std::string heading(const app::DistanceChoice& choice, const std::vector<std::string>& inputs);
 
 /// Writes the distances by dimension, then in the order of the inputs.
@@ -25,12 +25,12 @@ void write_distances(OutputFile& file, const PairDistances& distances,
                      const std::vector<Barcode>& barcodes, const std::vector<std::string>& inputs,
                      const Arguments& arguments);
 
-/// Writes the distances of the only dimension as a square: NPY, or CSV with the names of the
+/// Writes the distances of the only dimension as a square, in NPY or in CSV with the names of the
 /// inputs.
 void write_matrix(OutputFile& file, const PairDistances& distances, bool is_npy,
                   const std::vector<std::string>& inputs);
 
-/// Writes the distances, as a member of a document: "distances": […].
+/// Writes the distances as a member of a document, "distances": […].
 void write_distance_rows(OutputFile& file, const PairDistances& distances);
 
 }  // namespace ph::distance_program

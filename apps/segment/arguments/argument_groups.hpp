@@ -10,10 +10,11 @@
 #include "apps/segment/arguments/arguments.hpp"
 #include "apps/segment/arguments/scopes.hpp"
 
-// The options of ph-segment by topic. The objects that receive their values must outlive `options`.
+// The options of ph-segment, sorted by topic. The objects that receive their values must outlive
+// `options`.
 namespace ph::segment {
 
-/// A number that must be above zero (or, with `zero`, at least zero) and finite.
+/// A number that must be finite and above zero. With `zero`, it may also be zero.
 double length(std::string_view option, const std::string& text, bool zero = false);
 
 /// Options that other options may contradict. They are not looked up by name, because a lookup ends

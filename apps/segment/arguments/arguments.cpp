@@ -25,7 +25,7 @@ std::vector<std::string_view> names_of_presets() {
   return names;
 }
 
-/// Units per metre of the pixels of a depth image.
+/// The number of units per metre in the pixels of a depth image.
 double depth_scale(const std::string& text) {
   const double scale = length("--depth-scale", text);
   if (scale < 1)
@@ -78,13 +78,13 @@ void add_input_options(app::Options& options, Arguments& a) {
                a.stable_labels);
 }
 
-/// True if the name of an input is one that a depth image may have; a camera must be given as well.
+/// True if a depth image may have this file name. A camera must then be given as well.
 bool may_be_image(const std::string& path) {
   constexpr std::array<std::string_view, 6> extensions = {".png", ".PNG", ".pgm",
                                                           ".PGM", ".npy", ".NPY"};
   return std::ranges::any_of(extensions, [&](auto e) { return path.ends_with(e); });
 }
-/// True if only a depth image has such a name; a NumPy array without a camera is a cloud.
+/// True if only a depth image has this file name. A NumPy array without a camera is a cloud.
 bool must_be_image(const std::string& path) {
   return may_be_image(path) && !path.ends_with(".npy") && !path.ends_with(".NPY");
 }
@@ -180,8 +180,8 @@ bool Arguments::is_stream() const {
   const std::vector<app::Written> outputs = files.of_each_frame();
   const auto names_frames = [](const app::Written& output) { return app::names_each(output.path); };
   if (std::ranges::any_of(outputs, names_frames)) return true;
-  // A folder is accepted only if its results have a place; otherwise it is an input that cannot be
-  // read.
+  // A folder is accepted only if there is a place for its results. Otherwise it is an input that
+  // cannot be read.
   return files.any() && !inputs.empty() && app::is_folder(inputs.front()) &&
          std::ranges::all_of(outputs, app::is_folder, &app::Written::path);
 }

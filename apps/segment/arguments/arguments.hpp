@@ -20,13 +20,16 @@ namespace ph::segment {
 /// A depth image with the data that turn it into a cloud.
 struct DepthInput {
   std::string depth;
-  std::string colour;            ///< empty: none
-  std::string calibration;       ///< --camera: a file, or a name; empty: none
-  std::optional<Camera> camera;  ///< value of --intrinsics, or content of `calibration`
-  std::optional<double> scale;   ///< depth units per metre; empty: guessed from the image
+  std::string colour;  ///< empty if there is none
+  /// The value of --camera, which is a file or a name; empty if there is none.
+  std::string calibration;
+  /// The value of --intrinsics, or the content of `calibration`.
+  std::optional<Camera> camera;
+  /// Depth units per metre; if empty, guessed from the image.
+  std::optional<double> scale;
 
   bool has_camera() const { return camera || !calibration.empty(); }
-  /// The file or name that --camera gives; empty: none.
+  /// The file or name that --camera gives. Empty if --camera is not given.
   std::string calibration_file() const;
 };
 
@@ -37,7 +40,7 @@ struct CutArguments {
   std::optional<bool> objects;
   std::optional<double> min_seam;
 
-  /// The options of a cut: the given values and, where none is given, the values of the tree.
+  /// The options of a cut. Where no value is given, the value of the tree is used.
   CutOptions over(const CutOptions& tree) const {
     return {value.value_or(tree.value), min_part.value_or(tree.min_part),
             min_size.value_or(tree.min_size), objects.value_or(tree.objects),
@@ -47,23 +50,29 @@ struct CutArguments {
 
 /// The command line of ph-segment.
 struct Arguments {
-  std::vector<std::string> inputs;  ///< as given: files, or folders of frames
-  std::string frames_from;          ///< a list of frames, one per line; empty: none
-  bool stable_labels = false;       ///< an object keeps its label from frame to frame
-  std::string input;  ///< the current input: a cloud or a stored tree; empty: image.depth
+  std::vector<std::string> inputs;  ///< the inputs as given, which are files or folders of frames
+  /// A list of frames, one per line; empty if there is none.
+  std::string frames_from;
+  /// True if an object keeps its label from frame to frame.
+  bool stable_labels = false;
+  /// The current input, a cloud or a stored tree; if empty, the input is image.depth.
+  std::string input;
   DepthInput image;
-  bool allow_empty = false;  ///< a cloud without points is an empty result, not an error
+  /// True if a cloud without points is an empty result instead of an error.
+  bool allow_empty = false;
   SegmentOptions options;
   CutArguments cut;
   /// The given options that have no effect for some inputs or methods.
   std::vector<app::GivenOption> given;
   OutputPaths files;
-  ViewTurn plot_view;       ///< view of a plot that shows the cloud
-  bool signatures = false;  ///< write the homology of each segment into the JSON
-  std::optional<std::array<std::uint32_t, 2>> explain;  ///< two segments: print where they join
+  ViewTurn plot_view;  ///< the view of a plot that shows the cloud
+  /// True if the homology of each segment is written into the JSON.
+  bool signatures = false;
+  /// Two segments for which the program prints where they join.
+  std::optional<std::array<std::uint32_t, 2>> explain;
   app::CommonOptions common;
-  // For the report: the command line as it was typed, and its options except those for the cut and
-  // the outputs.
+  // These members are for the report. They are the command line as it was typed, and its options
+  // except the options for the cut and the outputs.
   std::vector<std::string> command, scene_options;
 
   /// True if frames are read and folders of results are written.
@@ -75,13 +84,13 @@ struct Arguments {
 /// The files that are read, except frames in folders and lists. No output may replace them.
 app::InputFiles inputs_of(const Arguments& arguments);
 
-/// Reads the command line; prints nothing.
-/// @return the answer to --help or --version, if one was asked for.
+/// Reads the command line, and prints nothing.
+/// @return the answer to --help or --version, if one of these options was given.
 /// @throws Error (usage); Error (not_built_in) on planned features.
 std::optional<std::string> parse_arguments(int argc, const char* const* argv, Arguments& arguments);
 
 /// One line for each given option that has no effect on any requested result. Options that have no
-/// effect for an input or a method are refused instead; see scopes.hpp.
+/// effect for an input or a method are refused instead (see scopes.hpp).
 std::vector<std::string> idle_options(const Arguments& arguments);
 
 /// The manual of the program.

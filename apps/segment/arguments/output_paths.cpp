@@ -116,7 +116,7 @@ std::vector<app::Written> OutputPaths::written() const {
 
 std::vector<app::Written> OutputPaths::of_each_frame() const {
   OutputPaths rest = *this;
-  rest.json.clear();  // one file for all frames
+  rest.json.clear();  // there is one file for all frames
   return rest.written();
 }
 

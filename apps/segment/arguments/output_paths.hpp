@@ -30,12 +30,14 @@ struct OutputPaths;
 /// An option that requests a file.
 struct OutputOption {
   OutputKind kind;
-  std::string_view option;         ///< "--output"
-  std::string OutputPaths::*path;  ///< null: --plot, which may request several files
-  std::string_view names, help;    ///< its names and description in --help
-  app::Scope scope = {};           ///< the situations in which it has an effect
-  /// The extensions that its file may have; in a folder of results, the file has the first one.
-  /// Empty: any extension.
+  std::string_view option;  ///< such as "--output"
+  /// Null for --plot, which may request several files.
+  std::string OutputPaths::*path;
+  std::string_view names, help;  ///< the names and the description of the option in --help
+  /// The situations in which the option has an effect.
+  app::Scope scope = {};
+  /// The extensions that the file may have. In a folder of results, the file has the first of
+  /// these. If there are none, any extension is accepted.
   std::span<const std::string_view> extensions;
   /// True if the file depends on labels, or on colours.
   bool shows_labels = false, shows_colours = false;
@@ -44,21 +46,22 @@ struct OutputOption {
 /// The options that request files, in the order of --help.
 std::span<const OutputOption> output_options();
 
-/// The files to write. An empty path: not requested.
+/// The files to write. An empty path means that the file is not requested.
 struct OutputPaths {
   std::string output;            ///< the cloud with its labels
   std::string labels;            ///< one label per point
   std::string surfaces;          ///< one number of a surface per point
   std::string json;              ///< the summary
   std::string tree;              ///< the merge tree
-  std::string barcode;           ///< H0
+  std::string barcode;           ///< the barcode of H0
   std::string coloured;          ///< the cloud with one colour per segment
   std::string picture;           ///< the image with one colour per segment
   std::string report;            ///< the interactive page
   std::vector<app::Plot> plots;  ///< pictures of the barcode, the tree or the cloud
-  PlotOptions look = {};         ///< look of the pictures
+  PlotOptions look = {};         ///< the look of the pictures
 
-  /// Calls visit(option, path, plot) for each requested file; `plot` is null for all but plots.
+  /// Calls visit(option, path, plot) for each requested file. `plot` is null for all files except
+  /// plots.
   template <class Visit>
   void each(Visit&& visit) const {
     each_of(*this, visit);
@@ -67,12 +70,12 @@ struct OutputPaths {
   std::vector<app::Written> written() const;
   /// The requested files that a stream writes for each of its frames, with their options.
   std::vector<app::Written> of_each_frame() const;
-  /// The files of one frame. @param name stands for the frame in the names of its files.
+  /// The files of one frame. @param name represents the frame in the names of its files.
   OutputPaths filled(const std::string& name) const;
 
   bool any() const { return !written().empty(); }
   bool to_standard_output() const;
-  /// True if a requested file has this property: &OutputOption::shows_labels.
+  /// True if a requested file has the given property, such as &OutputOption::shows_labels.
   bool show(bool OutputOption::*what) const;
 
  private:

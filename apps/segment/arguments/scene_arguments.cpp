@@ -45,7 +45,7 @@ Method parse_method(const std::string& text) {
   return static_cast<Method>(app::choose("--method", text, kMethodNames));
 }
 
-/// "0.005, paper: 0.01".
+/// Returns a text such as "0.005, paper: 0.01".
 template <class Value>
 std::string defaults_of(Value value_of) {
   return fmt::format("{}, paper: {}", (SegmentOptions{}.*value_of)(),

@@ -14,7 +14,7 @@
 namespace ph::segment {
 namespace {
 
-constexpr std::size_t kMostName = 1 << 16;  // bytes; systems allow about 4 096
+constexpr std::size_t kMostName = 1 << 16;  // in bytes; systems allow about 4 096
 
 }  // namespace
 

@@ -12,19 +12,19 @@ namespace ph::segment {
 /// has arrived.
 class FrameList {
  public:
-  /// @param path "-" is standard input. @param context outlives the list.
+  /// @param path a path, where "-" is standard input. @param context outlives the list.
   /// @throws Error (no_input) if it is missing, unreadable or a folder.
   FrameList(const std::string& path, const RunContext& context);
   ~FrameList();
   FrameList(const FrameList&) = delete;
   FrameList& operator=(const FrameList&) = delete;
 
-  /// The names that are known without waiting: all names of a file, but none of a pipe, because a
-  /// pipe may have no end. `next` returns these names as well. @throws like `next`.
+  /// The names that are known without waiting. These are all names of a file, but none of a pipe,
+  /// because a pipe may have no end. `next` also returns these names. @throws like `next`.
   const std::deque<std::string>& known();
-  /// Waits for the next name. @return empty after the last one.
+  /// Waits for the next name. @return nothing after the last name.
   /// @throws Error (io) if reading fails midway; Error (bad_data) on a NUL and on a line longer
-  ///         than names can be; Error (cancelled).
+  /// than names can be; Error (cancelled).
   std::optional<std::string> next();
 
  private:

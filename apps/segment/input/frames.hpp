@@ -19,8 +19,8 @@ struct Frame {
   OutputPaths files;
 };
 
-/// The frames of a stream, one after the other. The inputs come first, with each folder replaced by
-/// its files in the order of their names. Then come the lines of a list, each as soon as it has
+/// The frames of a stream, one after another. The inputs come first, where each folder is replaced
+/// by its files in the order of their names. Then come the lines of a list, each as soon as it has
 /// arrived.
 class FrameSource {
  public:
@@ -29,10 +29,10 @@ class FrameSource {
   /// (cannot_create).
   FrameSource(const Arguments& arguments, const RunContext& context);
 
-  /// Adds the frames that are known before the first one is requested. These are all frames except
-  /// the ones that a pipe lists, because a pipe can be read only once and may have no end.
+  /// Adds the frames that are known before the first frame is requested. These are all frames
+  /// except the frames that a pipe lists, because a pipe can be read only once and may have no end.
   void add_known(app::InputFiles& known);
-  /// @return empty after the last one. @throws Error like FrameList::next.
+  /// @return nothing after the last frame. @throws Error like FrameList::next.
   std::optional<Frame> next();
 
  private:
@@ -46,16 +46,17 @@ class FrameSource {
   std::vector<std::string> inputs_, names_;
   std::size_t given_ = 0;
   std::optional<FrameList> list_;
-  // The names in use, each with the last number that was appended to it. Without output files it
-  // stays empty, because a stream may be endless.
+  // The names in use, each with the last number that was appended to it. Without output files, the
+  // map stays empty, because a stream may be endless.
   std::unordered_map<std::string, std::size_t> taken_;
-  // The output files of all frames so far, if each frame has several. Two patterns may give one
-  // file from different names: `*.npy` from a-2, and `*-2.npy` from a.
+  // The output files of all frames so far, if each frame has several. Two patterns may give the
+  // same file from different names. For example, `*.npy` with a-2 and `*-2.npy` with a give the
+  // same file.
   std::unordered_set<std::string> taken_files_;
 };
 
-/// Reads the camera that --camera names, and reports facts that are not obvious, such as nominal
-/// values or a lens that distorts.
+/// Reads the camera that --camera names. Reports facts that are not obvious, such as nominal values
+/// or a lens that distorts.
 /// @throws Error like ph::read_camera.
 void load_camera(DepthInput& image, app::Session& session);
 

@@ -28,11 +28,11 @@ std::string extension_of(std::string_view path) {
   return lower_case(path.substr(dot));
 }
 
-/// @throws Error (usage) unless the path has an ending that the option can write; "-" is fine.
+/// @throws Error (usage) unless the path is "-" or has an ending that the option can write.
 void require_extension(const OutputOption& of, const std::string& path) {
   if (of.extensions.empty() || path == "-") return;
   if (std::ranges::count(of.extensions, extension_of(path)) > 0) return;
-  // Names that the format also accepts.
+  // These are names that the format also accepts.
   if (of.kind == OutputKind::barcode && barcode_format_of_path(path)) return;
   throw Error(ErrorKind::usage, fmt::format("{}: found {}, expected a file name that ends in {}",
                                             of.option, path, fmt::join(of.extensions, " or ")));
@@ -41,7 +41,7 @@ void require_extension(const OutputOption& of, const std::string& path) {
 template <class Write>
 std::string text_of(Write&& write) {
   std::ostringstream out;
-  out.exceptions(std::ios::badbit);  // else the stream would hide that memory ran out
+  out.exceptions(std::ios::badbit);  // otherwise the stream would hide a lack of memory
   write(out);
   return std::move(out).str();
 }

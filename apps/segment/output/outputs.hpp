@@ -15,17 +15,17 @@ namespace ph::segment {
 
 /// The facts that files state in addition to the segmentation.
 struct RunInfo {
-  std::string program;      ///< name and version
-  std::string input;        ///< path of the input
-  double read_seconds = 0;  ///< wall-clock time of reading the input
+  std::string program;      ///< the name and the version
+  std::string input;        ///< the path of the input
+  double read_seconds = 0;  ///< the wall-clock time of reading the input
   bool from_tree = false;   ///< true if a stored tree was cut
-  /// The name of each segment in the files; empty: its label.
+  /// The name of each segment in the files. If empty, the name of a segment is its label.
   std::vector<std::uint32_t> numbers = {};
-  /// For each segment its homology, or nothing if memory did not suffice for it. The list is empty
+  /// For each segment, its homology, or nothing if memory did not suffice for it. The list is empty
   /// if signatures were not requested.
   std::vector<std::optional<Barcode>> signatures = {};
-  // For the report.
-  std::string sha256 = {};                 ///< hash of the input
+  // The following members are for the report.
+  std::string sha256 = {};                 ///< the hash of the input
   std::vector<std::string> warnings = {};  ///< messages that the user got
 
   std::uint32_t number_of(std::uint32_t label) const {
@@ -36,7 +36,7 @@ struct RunInfo {
 /// The origin of the barcode of a segmentation, as files state it.
 BarcodeInfo barcode_info(const Segmentation& segmentation, const RunInfo& info);
 
-/// The files that the command line requests. They are opened before the computation; at the end,
+/// The files that the command line requests. They are opened before the computation. At the end,
 /// each file is complete or absent.
 class Outputs {
  public:
@@ -45,7 +45,7 @@ class Outputs {
 
   /// @throws Error (usage) if a file needs rows and columns and the cloud is unorganised.
   void require_suitable(Index height) const;
-  /// Writes and completes all files. @param cloud null: a stored tree was cut.
+  /// Writes and completes all files. @param cloud null if a stored tree was cut.
   void write(const Cloud* cloud, const Segmentation& segmentation, const RunInfo& info,
              const RunContext& context);
 
@@ -53,7 +53,7 @@ class Outputs {
   struct File {
     OutputKind kind;
     app::Output output;
-    const app::Plot* plot;  ///< the content of a plot
+    const app::Plot* plot;  ///< the plot, if the file is a plot
   };
   void write_file(File& file, const Cloud* cloud, const Segmentation& segmentation,
                   const RunInfo& info, const RunContext& context) const;

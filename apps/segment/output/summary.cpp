@@ -116,8 +116,8 @@ double seconds_of(const Segmentation& s) {
   return seconds;
 }
 
-/// The time that corresponds to the one in Table I of the paper: for the complex, its homology and
-/// the components.
+/// The time that corresponds to the time in Table I of the paper. It is the time for the complex,
+/// its homology and the components.
 double table_seconds(const Segmentation& s) {
   double seconds = 0;
   for (const Stage& stage : s.stages) {

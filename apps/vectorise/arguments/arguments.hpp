@@ -12,7 +12,7 @@
 
 namespace ph::vectorise {
 
-/// The value LO,HI,N, or N alone; in that case the range is fitted.
+/// The value LO,HI,N, or N alone. With N alone, the range is fitted.
 struct AxisArgument {
   std::optional<std::array<double, 2>> range;
   std::size_t count = 0;
@@ -21,7 +21,7 @@ struct AxisArgument {
 enum class InputKind { automatic, barcode, image };
 enum class OutputFormat { csv, npy };
 
-/// Everything the command line says.
+/// Everything that the command line states.
 struct Arguments {
   app::CommonOptions common;
   std::vector<std::string> inputs;
@@ -30,7 +30,7 @@ struct Arguments {
   CubicalOptions cubical;
 
   Kind kind = Kind::statistics;
-  std::vector<int> dims;  // empty: all dimensions
+  std::vector<int> dims;  // if empty, all dimensions
   std::optional<InfiniteRule> infinite;
   std::optional<AxisArgument> grid, length_grid;
   std::size_t layers = 5;
@@ -42,16 +42,17 @@ struct Arguments {
 
   std::string output = "-";
   std::optional<OutputFormat> output_format;
-  std::string fit;     // path; empty: none
-  std::string fitted;  // path; empty: none
+  std::string fit;     // a path; empty if there is none
+  std::string fitted;  // a path; empty if there is none
   // The given options that have no effect for some kinds of vectors.
   std::vector<app::GivenOption> given;
 
-  bool names_format() const;  ///< set by an option or an extension; otherwise the format is csv
+  /// True if an option or an extension names the format; otherwise it is csv.
+  bool names_format() const;
   OutputFormat written_format() const;
 };
 
-/// Parses the command line. @return the answer to --help or --version, if one was asked for.
+/// Parses the command line. @return the answer to --help or --version, if one of these was given.
 /// @throws Error (usage).
 std::optional<std::string> parse_arguments(int argc, const char* const* argv, Arguments& arguments);
 

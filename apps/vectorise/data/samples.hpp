@@ -19,7 +19,8 @@ std::vector<std::string> files_of(const Arguments& arguments, Kind kind);
 using Sample = std::variant<Barcode, Cubical>;
 
 /// @param cubical how to treat an image; axes that its file declares periodic are added.
-/// @throws Error like the readers; Error (usage) on an option that does not apply to such an input.
+/// @throws Error like the readers; Error (usage) on an option that does not apply to this kind of
+/// input.
 Sample read_sample(const std::string& path, const CubicalOptions& cubical,
                    const Arguments& arguments, app::Session& session);
 

@@ -18,8 +18,8 @@ struct Table {
   std::span<double> row(std::size_t i) { return std::span(numbers).subspan(i * columns, columns); }
 };
 
-/// Writes the table. @param inputs the names of the inputs, one per row. @param names the names of
-/// the columns.
+/// Writes the table. @param inputs the names of the inputs, one for each row. @param names the
+/// names of the columns.
 void write_table(OutputFile& file, const Table& table, OutputFormat format,
                  const std::vector<std::string>& inputs, const std::vector<std::string>& names);
 

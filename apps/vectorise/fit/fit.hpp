@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The definition of the vectors: everything that a test set shares with the training set.
+// This header defines the vectors, that is, everything that a test set shares with the training
+// set.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -41,38 +42,39 @@ struct Block {
   int dim = 0;       ///< unused for an Euler curve
   Grid grid;         ///< for curves and landscapes
   ImageFrame frame;  ///< for persistence images
-  double sigma = 0;  ///< for persistence images: the bandwidth
+  double sigma = 0;  ///< the bandwidth of persistence images
   Atol atol;
 };
 
 struct Fit {
   Kind kind = Kind::statistics;
   InfiniteRule infinite;
-  std::size_t layers = 5;   ///< number of layers of landscapes
-  std::size_t count = 5;    ///< number of lengths
+  std::size_t layers = 5;   ///< the number of layers of landscapes
+  std::size_t count = 5;    ///< the number of lengths
   double power = 1;         ///< for silhouettes and images
   bool normalised = false;  ///< for the entropy
   CubicalOptions cubical;   ///< for images whose Euler curves are requested
   std::vector<Block> blocks;
 };
 
-/// The size of a block by axis: {layers, points}.
+/// The size of a block along each axis, such as {layers, points}.
 std::vector<std::size_t> shape_of(const Fit& fit, const Block& block);
 /// The length of a vector.
 std::size_t length_of(const Fit& fit);
-/// A name for each number: "H1_layer0_17".
+/// A name for each number, such as "H1_layer0_17".
 std::vector<std::string> names_of(const Fit& fit);
 
-/// True if the function for this kind accepts infinite bars; then --infinite keep is allowed.
+/// True if the function for this kind accepts infinite bars. In this case, --infinite keep is
+/// allowed.
 bool may_keep_infinite(Kind kind);
 
-/// Rewords an error of a library function that received the bars of an input: the message begins
+/// Rewords an error of a library function that received the bars of an input. The message begins
 /// with the name of the input instead of the function's name, and suggests the option that helps.
 Error about_input(const Error& error, std::string_view name);
 
 /// The bars of a block in the form that its function expects. @param name the name of the input,
 /// for messages.
-/// @param dropped grows by the number of bars that were left out.
+/// @param dropped is increased by the number of bars that were left out.
 std::vector<Bar> bars_of(const Fit& fit, std::span<const Bar> bars, std::string_view name,
                          std::size_t& dropped);
 
@@ -80,7 +82,8 @@ std::vector<Bar> bars_of(const Fit& fit, std::span<const Bar> bars, std::string_
 void write_block(const Fit& fit, const Block& block, std::span<const Bar> bars,
                  std::span<double> out, const RunContext& context);
 
-/// The content that `--fit` writes. @param dropped number of bars that were left out of the fit.
+/// The content that `--fit` writes. @param dropped the number of bars that were left out of the
+/// fit.
 std::string fit_json(const Fit& fit, std::size_t dropped);
 
 /// Parses a file for `--fitted`. @throws Error (bad_data) on anything else.

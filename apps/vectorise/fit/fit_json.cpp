@@ -25,7 +25,7 @@ namespace {
 using detail::JsonCursor;
 
 constexpr std::string_view kFormat = "ph-vectorise fit";
-constexpr std::int64_t kMost = std::int64_t{1} << 30;  // largest accepted count
+constexpr std::int64_t kMost = std::int64_t{1} << 30;  // the largest accepted count
 
 std::string range_json(double lo, double hi, std::string_view name, std::size_t count) {
   return json::object(
@@ -61,7 +61,7 @@ std::string block_json(const Fit& fit, const Block& block) {
   return "{" + members + "}";
 }
 
-/// Reads the JSON that fit_json writes; unknown members are skipped.
+/// Reads the JSON that fit_json writes. Unknown members are skipped.
 class Reader {
  public:
   explicit Reader(const Input& input) : input_(input), json_(input) {}

@@ -13,10 +13,10 @@
 namespace ph::app {
 namespace {
 
-// One per process, like the console's messages.
+// There is one signal for each process, like the messages of the console.
 std::atomic<int> first_signal{0};
 std::mutex mutex;
-std::stop_source* watched = nullptr;  // guarded by the mutex
+std::stop_source* watched = nullptr;  // protected by the mutex
 std::mutex may_end;                   // the process does not end while another thread holds it
 
 [[noreturn]] void end_at_once(int signal) {
@@ -31,7 +31,7 @@ bool request_stop() {
   return watched != nullptr && watched->request_stop();
 }
 
-/// The system calls it on a new thread each time.
+/// The system calls this function on a new thread each time.
 BOOL WINAPI on_control(DWORD what) {
   constexpr DWORD kGraceMilliseconds = 60;
   const int signal = what == CTRL_C_EVENT ? SIGINT : SIGTERM;
@@ -60,7 +60,7 @@ SignalWatch::~SignalWatch() {
 
 int SignalWatch::received() { return first_signal.load(); }
 
-// Nothing to do: the system does not let mapped files shrink.
+// Does nothing, because the system does not allow mapped files to shrink.
 void end_where_mapped_files_shrink(std::string_view) {}
 
 SignalsWait::SignalsWait() { may_end.lock(); }
