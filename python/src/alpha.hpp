@@ -8,10 +8,11 @@
 
 namespace ph::python {
 
-/// Alpha complexes of points in one to three dimensions; the recipe shares the points.
+/// Alpha complexes of points in one to three dimensions. The recipe shares the points.
 class AlphaRecipe final : public Recipe {
  public:
-  /// @param ids the numbers of the points in the input; empty: they are the indices of the points.
+  /// @param ids the numbers of the points in the input; if empty, they are the indices of the
+  /// points.
   AlphaRecipe(std::shared_ptr<const MetricSpace> space, AlphaOptions options,
               std::vector<Index> ids)
       : space_(std::move(space)), options_(std::move(options)), ids_(std::move(ids)) {}

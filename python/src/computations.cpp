@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is computed of a recipe: its barcode, an estimate, the collapsed edges.
+// This file computes results of a recipe: its barcode, an estimate, and the collapsed edges.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -52,7 +52,7 @@ Bars barcode(const Recipe& recipe, const Task& task, const RunOptions& options) 
              [&](const RunContext& context) { return compute(recipe, task, context); });
 }
 
-/// The barcode of each recipe; recipes and tasks correspond.
+/// The barcode of each recipe. Task i belongs to recipe i.
 std::vector<Bars> barcodes(const std::vector<const Recipe*>& recipes,
                            const std::vector<Task>& tasks, const RunOptions& options) {
   return run(options, false, [&](const RunContext& context) {
@@ -71,8 +71,8 @@ Estimate estimate_of(const Recipe& recipe, const Task& task, const RunOptions& o
   });
 }
 
-/// One way to make a computation fit its memory: keywords to change together, and a text that names
-/// them with the memory that the computation then takes.
+/// One way to make a computation fit its memory. It consists of keywords to change together, and a
+/// text that names them with the memory that the computation then takes.
 using WayOut = std::pair<std::vector<std::pair<std::string, std::string>>, std::string>;
 
 std::vector<WayOut> ways_to_fit(const Recipe& recipe, const Task& task, const RunOptions& options) {
@@ -113,7 +113,7 @@ py::tuple collapsed_edges(const RipsRecipe& recipe, const RunOptions& options) {
                         Block::of(std::move(edges.values)));
 }
 
-/// @throws Error (usage) if nothing has this name.
+/// @throws Error (usage) if no engine has this name.
 Engine engine_of(const std::string& name) {
   if (const std::optional<Engine> engine = engine_named(name)) return *engine;
   throw Error(ErrorKind::usage, "engine: found '" + name + "', expected one of engine_names()");

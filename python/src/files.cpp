@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Files of data and of barcodes.
+// This file reads and writes files of data and of barcodes.
 #include <algorithm>
 #include <array>
 #include <filesystem>
@@ -31,7 +31,7 @@ class Answer {
   py::dict operator()(Points& points) const {
     return of("points", {{"points", py::cast(Block::of(std::move(points)))}});
   }
-  /// The square matrix, with both of its triangles, and with births on the diagonal.
+  /// Returns the square matrix, with both of its triangles, and with births on the diagonal.
   py::dict operator()(DistanceMatrix& distances) const {
     const Index n = distances.size();
     std::vector<double> square;
@@ -134,7 +134,7 @@ py::dict read(const std::string& path, const std::string& format_name,
                 "format: found '" + format_name + "', expected one of format_names()");
   std::vector<Index> dropped;
   how.dropped = &dropped;
-  SharedContext used;  // also used by the data that were read
+  SharedContext used;  // the data that were read also use this context
   ReadResult result;
   run_task(options, false, [&](const SharedContext& context) {
     used = context;

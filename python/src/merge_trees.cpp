@@ -15,11 +15,12 @@
 namespace ph::python {
 namespace {
 
-/// @param size number of points of the input, some of which may have been left out; 0 for an image.
+/// @param size the number of points of the input, some of which may have been left out; 0 for an
+/// image.
 MergeTree merge_tree_of(const Recipe& recipe, const RunOptions& options, std::size_t size) {
   Options components;
   components.max_dim = 0;
-  components.min_persistence = -1;  // equal points stay separate
+  components.min_persistence = -1;  // with this value, equal points stay separate
   return run(options, recipe.is_short(components), [&](const RunContext& context) {
     const Built built = recipe.build(context);
     MergeTree tree = std::visit([&](const auto& complex) { return merge_tree(complex, context); },
@@ -29,7 +30,7 @@ MergeTree merge_tree_of(const Recipe& recipe, const RunOptions& options, std::si
   });
 }
 
-/// One member of the merges, as an array with one entry per merge.
+/// Returns one member of the merges, as an array with one entry per merge.
 template <class Number, class Member>
 Block column(const MergeTree& tree, Member Merge::*member) {
   std::vector<Number> numbers;
@@ -38,7 +39,8 @@ Block column(const MergeTree& tree, Member Merge::*member) {
   return Block::of(std::move(numbers));
 }
 
-/// A tree from the arrays that it returned. @throws Error (bad_data) if no tree has such arrays.
+/// Makes a tree from the arrays that a tree returned. @throws Error (bad_data) if no tree has these
+/// arrays.
 MergeTree restored(const py::buffer& births, const py::buffer& values, const py::buffer& ends,
                    const py::buffer& sizes) {
   MergeTree tree{vector_of<double>(births), {}};
@@ -64,8 +66,8 @@ MergeTree restored(const py::buffer& births, const py::buffer& values, const py:
   return tree;
 }
 
-/// The merges in SciPy's form: each row has two clusters, the value at which they join, and the
-/// number of vertices of both together.
+/// Returns the merges in SciPy's form. Each row has two clusters, the value at which they join, and
+/// the number of vertices of both clusters together.
 Block linkage_of(const MergeTree& tree) {
   const std::vector<LinkageRow> rows = linkage(tree);
   std::vector<double> numbers;

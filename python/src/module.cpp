@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The module libph._core: functions that take buffers and plain numbers and return blocks of their
-// own. The Python modules around it handle shapes, names, words and defaults.
+// This file defines the module libph._core. Its functions take buffers and plain numbers, and
+// return blocks that own their data. The Python modules around it handle shapes, names, words and
+// defaults.
 #include "python/src/calls/bindings.hpp"
 
 PYBIND11_MODULE(_core, m) {

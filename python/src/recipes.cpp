@@ -21,8 +21,8 @@
 namespace ph::python {
 namespace {
 
-// The number of cells that the chosen engine processes in milliseconds, whatever the input:
-// starting a thread takes a tenth of a millisecond, more on a busy machine. The number corresponds
+// The number of cells that the chosen engine processes in milliseconds for any input. Starting a
+// thread takes a tenth of a millisecond, or more on a busy machine. The number of cells corresponds
 // to 215 points up to H1, or to 80 points up to H2.
 constexpr double kFewSimplices = 1e7;
 constexpr double kFewCubes = 1e5;
@@ -107,7 +107,8 @@ Image CubicalRecipe::image(const RunContext& context) const {
   } else {
     std::vector<std::ptrdiff_t> strides;
     for (const py::ssize_t bytes : array_.strides) strides.push_back(bytes / array_.itemsize);
-    if (!is_c_contiguous(array_))  // a copy
+    // The image needs a copy.
+    if (!is_c_contiguous(array_))
       context.memory.require(static_cast<std::size_t>(array_.size * array_.itemsize));
     image = image_of_array(type_, array_.ptr, std::move(extents), strides);
   }
@@ -162,7 +163,7 @@ std::unique_ptr<Recipe> lower_star_of(const py::buffer& vertices, const py::buff
                                       const py::buffer& vertex_values,
                                       std::optional<double> threshold) {
   SimplexList list{vector_of<Index>(vertices), sizes_of(offsets), {}};
-  // The values are ignored: the complex is that of the vertices' values.
+  // The values are ignored, because the complex is the complex of the vertices' values.
   list.values.resize(list.size());
   std::vector<double> values = vector_of<double>(vertex_values);
   const std::size_t cells = values.size() + 4 * list.vertices.size();
@@ -186,7 +187,7 @@ std::unique_ptr<Recipe> boundary(const py::buffer& dims, const py::buffer& offse
       threshold, cells);
 }
 
-/// The words for the values that a keyword accepts: "'cpu' or 'gpu'".
+/// The words for the values that a keyword accepts, such as "'cpu' or 'gpu'".
 template <class Value>
 std::string expected_of(const Value*) {
   if constexpr (std::is_enum_v<Value>)
@@ -201,7 +202,7 @@ std::string expected_of(const std::optional<Value>*) {
   return expected_of(static_cast<const Value*>(nullptr));
 }
 
-/// Options whose members are set by keywords; other keywords are ignored.
+/// Options whose members are set by keywords. Other keywords are ignored.
 template <class Options>
 Options taken(const py::dict& keywords) {
   Options options;

@@ -21,25 +21,26 @@ struct Task {
   LoopChoice loops = LoopChoice::none;
 };
 
-/// A complex, and the facts found while it was built.
+/// A complex, and the facts that were found while it was built.
 struct Built {
   AnyComplex complex;
   Facts facts = {};
 };
 
-/// The data and options from which a complex is built. It is built within a run, which can be
-/// stopped.
+/// The data and options from which a complex is built. The complex is built within a run, which can
+/// be stopped.
 class Recipe {
  public:
   virtual ~Recipe() = default;
   /// @param context outlives the complex.
   virtual Built build(const RunContext& context) const = 0;
-  /// True if building it and computing its homology takes milliseconds at most.
+  /// True if building the complex and computing its homology takes milliseconds at most.
   virtual bool is_short(const Options& options) const = 0;
-  /// For each vertex of the complex its number in the input; empty: the vertex's own number.
+  /// For each vertex of the complex, its number in the input. If empty, each vertex has its own
+  /// number.
   virtual const std::vector<Index>& vertex_ids() const;
 
-  // The points, for a page that shows the data; empty if the complex is not built from points.
+  // The points, for a page that shows the data. Empty if the complex is not built from points.
   virtual std::optional<PointsView> points() const { return std::nullopt; }
   /// True if the edges up to a value are exactly the pairs of points within this distance.
   virtual bool is_euclidean() const { return false; }
@@ -48,7 +49,8 @@ class Recipe {
 class RipsRecipe final : public Recipe {
  public:
   /// @param options all options except the metric, which belongs to the space.
-  /// @param ids the numbers of the points in the input; empty: they are the indices of the points.
+  /// @param ids the numbers of the points in the input; if empty, they are the indices of the
+  /// points.
   RipsRecipe(std::shared_ptr<const MetricSpace> space, RipsOptions options, std::vector<Index> ids);
 
   Built build(const RunContext& context) const override;
@@ -67,7 +69,7 @@ class RipsRecipe final : public Recipe {
   const std::vector<Index> ids_;
 };
 
-/// The complex of an image in an array with one of the voxel types; the recipe keeps the array
+/// The complex of an image in an array with one of the voxel types. The recipe keeps the array
 /// alive.
 class CubicalRecipe final : public Recipe {
  public:

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Pages that show a barcode or a segmentation with the data from which it was computed.
+// This file makes pages that show a barcode or a segmentation with the data from which it was
+// computed.
 #include <fmt/format.h>
 
 #include <cstdint>
@@ -24,7 +25,7 @@
 namespace ph::python {
 namespace {
 
-/// The text of a page, which counts in the budget while it grows.
+/// The text of a page. Its memory counts in the budget while it grows.
 template <class Page>
 std::string text_of(const Page& page, const RunContext& context) {
   std::string text;
@@ -64,8 +65,9 @@ void require_bars(const report::ShownTree& tree, const Barcode& barcode) {
   }
 }
 
-/// @param recipe null: the bars alone.
-/// @param vertices float64, one vertex of the complex per row; none: the vertices of the recipe.
+/// @param recipe if it is null, the page shows only the bars.
+/// @param vertices float64, one vertex of the complex per row; if not given, the vertices of the
+/// recipe.
 py::bytes page_of_bars(const Bars& bars, const Recipe* recipe, const Task& task,
                        const std::optional<py::buffer>& vertices, bool has_axes_of_space,
                        const std::string& title, const py::dict& meta,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-// The parts of the module, one per file, in the order in which they are added.
+// These functions add the parts of the module. There is one file for each part, and the parts are
+// added in this order.
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Translates exceptions of C++ into the exception classes of libph/_errors.py.
+// This file translates exceptions of C++ into the exception classes of libph/_errors.py.
 #include <exception>
 #include <new>
 #include <string_view>
@@ -37,7 +37,7 @@ const char* class_of(ErrorKind kind) {
   return "InternalError";
 }
 
-/// The name of a file may not be valid UTF-8.
+/// Converts a text to Python. The name of a file may not be valid UTF-8.
 py::object text_of(std::string_view text) {
   return py::reinterpret_steal<py::object>(
       PyUnicode_DecodeUTF8(text.data(), static_cast<Py_ssize_t>(text.size()), "replace"));
@@ -81,7 +81,8 @@ void translate(std::exception_ptr thrown) {
     set_error(exception_of(error, class_of(error.kind())));
   } catch (const std::bad_alloc&) {
     set_error("MemoryLimitError", "out of memory");
-  } catch (const std::system_error& error) {  // no more threads or mutexes
+    // Thrown if there are no more threads or mutexes.
+  } catch (const std::system_error& error) {
     set_error("MemoryLimitError", error.what());
   } catch (const py::error_already_set&) {
     throw;

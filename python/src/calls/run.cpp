@@ -26,10 +26,11 @@ using Task = std::function<void(const SharedContext&)>;
 
 constexpr std::chrono::milliseconds kLook(20);
 
-/// The free memory of the machine, less the memory that this process already uses, such as the
-/// arrays of the caller.
+/// The free memory of the machine, minus the memory that this process already uses, for example for
+/// the arrays of the caller.
 std::size_t memory_left() {
-  static const std::size_t all = machine_memory();  // slow to find out
+  // This number is slow to determine.
+  static const std::size_t all = machine_memory();
   return all - std::min<std::size_t>(all, status_bytes("RssAnon:").value_or(0));
 }
 
@@ -41,15 +42,15 @@ std::shared_ptr<RunContext> new_context(const RunOptions& options) {
   return context;
 }
 
-/// The calls in progress, guarded by the GIL.
+/// The calls in progress, protected by the GIL.
 ///
-/// When Python ends, a thread that returns to it from a call would be ended within C++, and the
-/// process with it. Therefore the last thing that Python does is to stop these calls and wait for
-/// their return.
+/// When Python ends, a thread that returns to Python from a call would be ended within C++, which
+/// would end the process. Therefore the last thing that Python does is to stop these calls and wait
+/// for their return.
 class Calls {
  public:
-  /// Represents one call as long as the object lives. The GIL must be held when it is made or
-  /// destroyed.
+  /// Represents one call as long as the object lives. The GIL must be held when the object is made
+  /// or destroyed.
   class Call {
    public:
     explicit Call(std::stop_source* stop = nullptr) : stop_(stop) {
@@ -81,7 +82,8 @@ class Calls {
   static void forget_all() { calls_.clear(); }
 
  private:
-  static inline std::thread::id ender_;  // none: Python continues
+  // No thread while Python continues.
+  static inline std::thread::id ender_;
   static inline std::vector<const Call*> calls_;
 };
 
@@ -94,7 +96,7 @@ News news_of(const Progress& progress) {
   return {std::string(progress.stage), progress.done, progress.total};
 }
 
-/// A computation on a thread of its own, and its messages to the caller's thread.
+/// A computation on its own thread, and its messages to the caller's thread.
 class Computation {
  public:
   Computation(const RunOptions& options, const Task& task)
@@ -116,7 +118,7 @@ class Computation {
       worker = std::jthread([this] { compute(); });
       unless_it_throws([this] { watch(); });
     } catch (const std::system_error&) {
-      // If the system has no thread left, the computation checks for stops itself whenever it
+      // If the system has no thread left, the computation itself checks for stops whenever it
       // reports progress.
       context_->on_progress = [this](const Progress& progress) {
         unless_it_throws([&] { look_in_between(progress); });
@@ -130,7 +132,7 @@ class Computation {
   }
 
  private:
-  // Called on the computation's thread.
+  // This function is called on the computation's thread.
   void compute() {
     try {
       task_(context_);
@@ -147,8 +149,8 @@ class Computation {
     changed_.notify_one();
   }
 
-  // Called on the caller's thread.
-  /// Calls `look`; an exception from a signal handler or a callback stops the computation.
+  // This function is called on the caller's thread.
+  /// Calls `look`. An exception from a signal handler or a callback stops the computation.
   void unless_it_throws(const std::function<void()>& look) {
     try {
       if (!of_caller_) look();
@@ -232,7 +234,8 @@ void run_task(const RunOptions& options, bool is_short, const Task& task) {
   const Calls::Call call;
   const py::gil_scoped_release no_gil;
   const std::shared_ptr<RunContext> context = new_context(options);
-  if (options.threads == 0) context->threads = 1;  // a second thread would take longer to start
+  // A second thread would take longer to start than the computation takes.
+  if (options.threads == 0) context->threads = 1;
   task(context);
 }
 

@@ -19,14 +19,16 @@ namespace py = pybind11;
 /// The options that bound, watch and stop a computation. They hold Python objects, so they must be
 /// made while the GIL is held.
 struct RunOptions {
-  int threads = 0;                          ///< 0: one per core
-  std::optional<std::size_t> memory_limit;  ///< bytes; none: the free memory of the machine
-  std::optional<double> timeout;            ///< seconds
-  py::object progress = py::none();         ///< called with (stage, done, total)
-  py::object stop = py::none();             ///< stops once its `is_set()` returns true
-  int slab_layers = 0;                      ///< see RunContext
+  int threads = 0;  ///< 0 means one per core
+  /// In bytes; if none, the free memory of the machine.
+  std::optional<std::size_t> memory_limit;
+  std::optional<double> timeout;     ///< in seconds
+  py::object progress = py::none();  ///< called with (stage, done, total)
+  /// The computation stops once `is_set()` of this object returns true.
+  py::object stop = py::none();
+  int slab_layers = 0;  ///< see RunContext
 
-  /// True if somebody must watch the computation, however short it is.
+  /// True if the computation must be watched, even if it is short.
   bool is_watched() const { return timeout || !progress.is_none() || !stop.is_none(); }
 };
 
@@ -37,22 +39,23 @@ class Timeout : public Error {
 };
 
 /// The environment of a computation. An object that keeps memory of the budget after the run must
-/// keep this environment as well.
+/// also keep this environment.
 using SharedContext = std::shared_ptr<const RunContext>;
 
 /// Runs `task(context)` without the GIL.
 ///
-/// The task runs on its own thread, which has ended when this returns. Meanwhile the caller's
-/// thread checks every 20 ms for signals (Ctrl-C; Python handles signals on its main thread only),
-/// progress, a stop and the time limit. An exception from a signal handler or a callback stops the
-/// computation and is rethrown. Tasks that are certainly short run on the caller's thread. So do
-/// all tasks if the system has no thread left; they then check whenever they report progress.
+/// The task runs on its own thread, which has ended when this function returns. During the task,
+/// the caller's thread checks every 20 ms for signals (such as Ctrl-C, because Python handles
+/// signals only on its main thread), progress, a stop and the time limit. An exception from a
+/// signal handler or a callback stops the computation and is rethrown. Tasks that are certainly
+/// short run on the caller's thread. If the system has no thread left, all tasks run on the
+/// caller's thread. They then check whenever they report progress.
 /// @param is_short true if the task takes milliseconds at most.
 /// @throws the exceptions of `task`; Timeout; Error (cancelled); py::error_already_set.
 void run_task(const RunOptions& options, bool is_short,
               const std::function<void(const SharedContext&)>& task);
 
-/// The same for tasks with a result. The result must not hold Python objects.
+/// Does the same for tasks with a result. The result must not contain Python objects.
 template <class Compute>
 auto run(const RunOptions& options, bool is_short, const Compute& compute) {
   std::optional<std::invoke_result_t<Compute, const RunContext&>> result;

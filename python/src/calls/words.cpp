@@ -8,13 +8,13 @@ bool is_number(std::string_view text) {
   return text.find_first_not_of("+-.0123456789e") == text.npos;
 }
 
-/// A placeholder, such as X: the reader of the message knows which value to give.
+/// True for a placeholder, such as X. The reader of the message knows which value to give instead.
 bool is_placeholder(std::string_view value) { return value[0] >= 'A' && value[0] <= 'Z'; }
 
 std::string in_keywords(Setting setting, std::string_view value) {
   const auto [name, given] = keyword_of(setting, value);
   if (name.empty() || given.empty()) return name;
-  // A camera and a placeholder stand without quotes.
+  // A camera and a placeholder are written without quotes.
   if (setting == Setting::camera || is_placeholder(given)) return name + ' ' + given;
   if (setting == Setting::columns) return name + "=['" + given + "']";
   if (is_number(given)) return name + '=' + given;
@@ -32,7 +32,7 @@ Keyword keyword_of(Setting setting, std::string_view value) {
   };
   switch (setting) {
     case Setting::allow_empty:  // this option is always on
-    case Setting::labels:       // for a label file, which Python does not write
+    case Setting::labels:       // used for a label file, which Python does not write
     case Setting::plane_guess:
     case Setting::report:
       return {};
@@ -40,7 +40,7 @@ Keyword keyword_of(Setting setting, std::string_view value) {
       return {"array", value == "cubical" ? "image" : std::string(value)};
     case Setting::diagonal:
       return {"diagonal", value == "zero" ? "any" : std::string(value)};
-    case Setting::cut:  // the first parameter of Segmentation.cut
+    case Setting::cut:  // this is the first parameter of Segmentation.cut
       return named("value");
     case Setting::infinite:
       return named("infinity");

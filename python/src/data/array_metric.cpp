@@ -15,14 +15,16 @@ namespace ph::python {
 namespace {
 
 constexpr double kRounding = 1e-6;
-constexpr Index kTile = 64;  // number of rows, and of columns, of a tile that is processed at once
+// The number of rows, and of columns, of a tile that is processed at once.
+constexpr Index kTile = 64;
 
 struct Place {
   Index i = 0, j = 0;
   friend auto operator<=>(const Place&, const Place&) = default;
 };
 
-/// The number with the largest deviation from its required value, the first among equals.
+/// The number with the largest deviation from its required value. If several numbers have the same
+/// deviation, it is the first of them.
 struct Doubt {
   double size = 0;
   Place place;

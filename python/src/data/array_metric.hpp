@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-// A metric that reads its distances from a Python array, in place.
+// This header declares a metric that reads its distances in place from a Python array.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -17,19 +17,25 @@ namespace ph::python {
 struct DistanceArray {
   const char* data = nullptr;
   Index points = 0;
-  std::ptrdiff_t row_stride = 0, column_stride = 0;  ///< bytes; with a single axis: column_stride
-  /// The upper triangle row by row, as SciPy's pdist returns it; otherwise the whole square matrix.
+  /// In bytes; an array with a single axis uses column_stride.
+  std::ptrdiff_t row_stride = 0, column_stride = 0;
+  /// True if the array is the upper triangle row by row, as SciPy's pdist returns it. Otherwise it
+  /// is the whole square matrix.
   bool is_condensed = false;
-  Symmetrise symmetrise = Symmetrise::none;  ///< for a square matrix
-  NanPolicy nan = NanPolicy::error;          ///< drop: such a pair is never joined
-  bool has_zero_diagonal = true;             ///< false: the values on the diagonal are ignored
-  bool has_nan_option = true;                ///< false: messages do not suggest it
+  Symmetrise symmetrise = Symmetrise::none;  ///< used for a square matrix
+  /// With `drop`, a pair with NaN is never joined.
+  NanPolicy nan = NanPolicy::error;
+  /// If false, the values on the diagonal are ignored.
+  bool has_zero_diagonal = true;
+  /// If false, messages do not suggest the option.
+  bool has_nan_option = true;
 
   /// The index of the pair i < j in the condensed form.
   Index condensed_place(Index i, Index j) const { return i * (2 * points - i - 1) / 2 + j - i - 1; }
 };
 
-/// Reads distances from an array. It is a metric if `check_distances` has accepted the array.
+/// Reads distances from an array. This class is a metric if `check_distances` has accepted the
+/// array.
 template <class Number>
 class ArrayMetric {
  public:
@@ -64,7 +70,7 @@ class ArrayMetric {
   double at(std::ptrdiff_t byte) const {
     return static_cast<double>(*reinterpret_cast<const Number*>(array_.data + byte));
   }
-  /// NaN is never joined; a negative number is a rounding error.
+  /// A pair with NaN is never joined. A negative number is a rounding error.
   static double distance(double number) {
     if (std::isnan(number)) return std::numeric_limits<double>::infinity();
     return number > 0 ? number : 0;
@@ -76,7 +82,7 @@ class ArrayMetric {
 /// Checks all numbers once. Like the readers of ph::io, it treats deviations below 1e-6 of the
 /// largest distance as rounding. Deviations are negative numbers, differences between the two
 /// numbers of a pair, and numbers on the diagonal other than 0.
-/// @throws Error (bad_data) that names row and column; Error (cancelled).
+/// @throws Error (bad_data), which names row and column; Error (cancelled).
 template <class Number>
 void check_distances(const DistanceArray& array, const RunContext& context);
 

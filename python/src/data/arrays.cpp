@@ -14,7 +14,7 @@ Block Block::of(Points&& points) {
 
 Block Block::of(const Image& image, std::shared_ptr<const RunContext> context) {
   struct Owner {
-    std::shared_ptr<const RunContext> context;  // destroyed last
+    std::shared_ptr<const RunContext> context;  // this member is destroyed last
     Voxels voxels;
   };
   const auto owner = std::make_shared<const Owner>(Owner{std::move(context), image.values});

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-// Arrays from and for Python. They use the buffer protocol alone; therefore the module works with
-// any version of NumPy.
+// This header contains arrays from and for Python. They use only the buffer protocol, so the module
+// works with any version of NumPy.
 #include <pybind11/pybind11.h>
 
 #include <cstddef>
@@ -23,7 +23,8 @@ namespace ph::python {
 
 namespace py = pybind11;
 
-/// The letter of a number type in the buffer protocol; for int64, the letter of NumPy's own int64.
+/// The letter of a number type in the buffer protocol. For int64, it is the letter of NumPy's own
+/// int64.
 template <class T>
 std::string letter_of() {
   if (std::is_same_v<T, std::int64_t> && sizeof(long) == sizeof(T)) return "l";
@@ -33,7 +34,7 @@ std::string letter_of() {
 /// An array for Python. The array keeps its numbers alive.
 class Block {
  public:
-  /// @param shape its product is the number of numbers.
+  /// @param shape the lengths of the axes, whose product is the number of numbers.
   template <class T>
   static Block of(std::vector<T> numbers, std::vector<py::ssize_t> shape) {
     auto owner = std::make_shared<std::vector<T>>(std::move(numbers));
@@ -51,7 +52,7 @@ class Block {
   }
   /// Takes the points without a copy.
   static Block of(Points&& points);
-  /// Shares the numbers of the image without a copy; numbers that stay in a file are read-only.
+  /// Shares the numbers of the image without a copy. Numbers that stay in a file are read-only.
   /// @param context the context in which the image was made, if the image may count in the budget
   /// of this context.
   static Block of(const Image& image, std::shared_ptr<const RunContext> context = nullptr);
@@ -101,10 +102,10 @@ std::vector<T> vector_of(const py::buffer& array) {
   return {numbers.begin(), numbers.end()};
 }
 
-/// The type of the numbers of an image. @throws Error (internal) on a type that images do not have.
+/// The type of the numbers of an image. @throws Error (internal) if images do not have this type.
 VoxelType voxel_type_of(const py::buffer_info& array);
 
-/// The points of a float64 array with one point per row; strides may be any multiples of the item
+/// The points of a float64 array with one point per row. Strides may be any multiples of the item
 /// size.
 PointsView points_of(const py::buffer_info& array);
 

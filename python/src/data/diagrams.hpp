@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-// Diagrams from Python: float64 arrays of rows birth, death.
+// This header converts diagrams from Python, which are float64 arrays with rows birth, death.
 #include <pybind11/pybind11.h>
 
 #include <span>

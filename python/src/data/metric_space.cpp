@@ -15,7 +15,8 @@
 namespace ph::python {
 namespace {
 
-/// The number of points that have this many pairs. @throws Error (bad_data) if there is none.
+/// The number of points that have this many pairs. @throws Error (bad_data) if there is no such
+/// number.
 Index points_of_pairs(Index pairs) {
   const auto n =
       static_cast<Index>(std::llround((1 + std::sqrt(1 + 8 * static_cast<double>(pairs))) / 2));

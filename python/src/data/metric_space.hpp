@@ -24,7 +24,7 @@ namespace py = pybind11;
 struct PointSet {
   PointsView points;
   PointDistance distance = PointDistance::euclidean;
-  double p = 2;  ///< exponent of PointDistance::minkowski
+  double p = 2;  ///< the exponent of PointDistance::minkowski
 
   Index size() const { return points.rows(); }
 };
@@ -38,18 +38,18 @@ inline std::vector<double> distance_to_measure(const PointSet& set, Index neighb
   return ph::distance_to_measure(set.points, neighbours, set.distance, set.p, context);
 }
 
-/// A finite set with distances. Its numbers are points, all distances, or the distances of some
-/// pairs; they are in Python arrays, which this object keeps alive. The arrays must not change
-/// during a computation.
+/// A finite set with distances. It is given by points, by all distances, or by the distances of
+/// some pairs. The numbers are in Python arrays, which this object keeps alive. The arrays must not
+/// change during a computation.
 class MetricSpace {
  public:
   /// @param points float64, one point per row.
   MetricSpace(const py::buffer& points, PointDistance distance, double p);
   /// @param distances float32 or float64, a square matrix or, with one axis, its condensed form.
-  /// @param has_nan_option false: messages do not suggest this option.
+  /// @param has_nan_option if false, messages do not suggest this option.
   MetricSpace(const py::buffer& distances, Symmetrise symmetrise, NanPolicy nan,
               bool has_zero_diagonal, bool has_nan_option);
-  /// Pairs i < j, each once, with their distances.
+  /// @param i, j the pairs i < j, each of which occurs once. @param distances their distances.
   MetricSpace(Index size, const py::buffer& i, const py::buffer& j, const py::buffer& distances);
 
   Index size() const { return size_; }

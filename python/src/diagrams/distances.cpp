@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Distances of diagrams, matchings and barycentres. A diagram is an array of rows birth, death.
+// This file computes distances of diagrams, matchings and barycentres. A diagram is an array with
+// rows birth, death.
 #include "ph/distances.hpp"
 
 #include <algorithm>
@@ -23,8 +24,9 @@ using Diagram = std::span<const Bar>;
 /// The distance to compute, and the required accuracy.
 struct DiagramMetric {
   enum class Kind { bottleneck, wasserstein, sliced } kind = Kind::bottleneck;
-  WassersteinOptions options = {};  ///< for bottleneck, only the limits count
-  int directions = 50;              ///< for the sliced distance
+  /// For the bottleneck distance, only the limits count.
+  WassersteinOptions options = {};
+  int directions = 50;  ///< used by the sliced distance
 
   DistanceBounds bounds(Diagram a, Diagram b, const RunContext& context) const {
     switch (kind) {
@@ -68,8 +70,8 @@ py::tuple distance(const py::buffer& a, const py::buffer& b, const DiagramMetric
   return py::make_tuple(bounds.value, bounds.lower);
 }
 
-/// Completes a matching: each bar is in one pair, with the diagonal if necessary. The index -1
-/// stands for the diagonal, and comes last.
+/// Completes a matching, so that each bar is in one pair, with the diagonal if necessary. The index
+/// -1 means the diagonal, and comes last.
 std::vector<std::pair<std::int64_t, std::int64_t>> with_diagonal(const BottleneckMatching& matching,
                                                                  std::size_t count_a,
                                                                  std::size_t count_b) {
@@ -108,7 +110,7 @@ py::tuple matching(const py::buffer& a, const py::buffer& b, const DiagramMetric
                         Block::of(std::move(flat), {rows, 2}));
 }
 
-/// A square matrix or, with `others`, a matrix with one column for each of them.
+/// Returns a square matrix. With `others`, returns a matrix with one column for each of the others.
 Block distances(const std::vector<py::buffer>& diagrams,
                 const std::optional<std::vector<py::buffer>>& others, const DiagramMetric& metric,
                 const RunOptions& options) {
@@ -128,7 +130,8 @@ Block distances(const std::vector<py::buffer>& diagrams,
                          const DistanceMatrix all =
                              diagram_distances(rows.spans(), metric.function(), context);
                          const auto count = static_cast<std::size_t>(size * size);
-                         // The square matrix, and the lower half of it from which it is filled.
+                         // This is the memory for the square matrix, and for the lower half from
+                         // which it is filled.
                          const MemoryClaim claim(context.memory, 3 * count * sizeof(double) / 2);
                          std::vector<double> square;
                          square.reserve(count);

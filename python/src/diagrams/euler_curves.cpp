@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Euler and Betti curves as step functions, and Euler curves of images.
+// This file computes Euler and Betti curves as step functions, and Euler curves of images.
 #include "ph/euler_curve.hpp"
 
 #include <cstdint>
@@ -24,8 +24,8 @@ Steps steps_of(StepFunction&& curve) {
   return {Block::of(std::move(curve.at)), Block::of(std::move(curve.value))};
 }
 
-/// @param dims the dimension of each bar; none: all bars have dimension 0, and the curve shows
-/// Betti numbers.
+/// @param dims the dimension of each bar. If it is not given, all bars have dimension 0, and the
+/// curve shows Betti numbers.
 Steps curve_of_bars(const py::buffer& rows, const std::optional<py::buffer>& dims,
                     const RunOptions& options) {
   std::vector<Bar> bars = bars_of(rows);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Kernels of diagrams: Gram matrices.
+// This file computes kernels of diagrams as Gram matrices.
 #include <optional>
 #include <span>
 #include <string>
@@ -18,8 +18,8 @@ namespace {
 /// The kernel and its width.
 struct KernelChoice {
   bool is_scale_space = true;
-  double sigma = 1;                ///< for the scale-space kernel
-  WeightedGaussian weighted = {};  ///< for the weighted Gaussian kernel
+  double sigma = 1;                ///< used by the scale-space kernel
+  WeightedGaussian weighted = {};  ///< used by the weighted Gaussian kernel
 
   DiagramKernel function() const {
     return [choice = *this](std::span<const Bar> a, std::span<const Bar> b,
@@ -34,7 +34,7 @@ KernelChoice choice_of(const std::string& kind, double sigma, double slope, doub
   return {kind == "scale_space", sigma, {sigma, slope, power}};
 }
 
-/// A square matrix or, with `others`, a matrix with one column for each of them.
+/// Returns a square matrix. With `others`, returns a matrix with one column for each of the others.
 Block kernels(const std::vector<py::buffer>& diagrams,
               const std::optional<std::vector<py::buffer>>& others, const KernelChoice& choice,
               const RunOptions& options) {
@@ -47,8 +47,8 @@ Block kernels(const std::vector<py::buffer>& diagrams,
                          }),
                      {size, size});
   const Diagrams columns(*others);
-  // diagram_distances accepts any function of two diagrams, not only distances, and shares the
-  // pairs among threads.
+  // The function diagram_distances accepts any function of two diagrams, including functions that
+  // are not distances. It shares the pairs among threads.
   return Block::of(run(options, false,
                        [&](const RunContext& context) {
                          return diagram_distances(rows.spans(), columns.spans(), choice.function(),

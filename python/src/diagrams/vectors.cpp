@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Vectors of diagrams. Python creates the arrays of one axis to which they are written.
+// This file computes vectors of diagrams. Python creates the one-axis arrays to which the vectors
+// are written.
 #include <array>
 #include <cstdint>
 #include <string>
@@ -35,7 +36,7 @@ class Out {
   std::span<double> numbers_;
 };
 
-/// True if this many steps take milliseconds at most.
+/// True if this number of steps takes milliseconds at most.
 bool is_short(std::size_t steps) { return steps < 1'000'000; }
 
 void put_statistics(const py::buffer& rows, const py::buffer& to, const RunOptions& options) {
@@ -66,7 +67,7 @@ void put_lengths(const py::buffer& rows, const py::buffer& to, const RunOptions&
   });
 }
 
-/// A curve of a diagram at the values of a grid.
+/// Writes a curve of a diagram at the values of a grid.
 template <class Curve>
 void put_curve(const py::buffer& rows, const Ends& ends, const py::buffer& to,
                const RunOptions& options, const Curve& curve) {
@@ -110,7 +111,7 @@ void put_landscape(const py::buffer& rows, const Ends& ends, std::size_t layers,
   });
 }
 
-/// For each layer, its critical points and the values there.
+/// For each layer, returns its critical points and the values there.
 std::vector<std::pair<Block, Block>> exact_landscape_of(const py::buffer& rows, std::size_t layers,
                                                         const RunOptions& options) {
   const std::vector<Bar> bars = bars_of(rows);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Parts of a cloud, as bytes.
+// This file converts parts of a cloud to and from bytes.
 #include "ph/parts/cloud_part.hpp"
 
 #include <fmt/format.h>
@@ -36,7 +36,7 @@ py::bytes join_cloud_parts(const std::vector<py::bytes>& parts, const RunOptions
   }));
 }
 
-/// @param cells if true, bars have cells, which need more memory.
+/// @param cells true if bars have cells, which need more memory.
 Bars cloud_part_bars(const py::bytes& bytes, bool cells, const RunOptions& options) {
   const auto view = view_of(bytes);
   return run(options, false, [&](const RunContext& context) {

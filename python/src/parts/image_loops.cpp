@@ -12,7 +12,7 @@ namespace ph::python {
 namespace {
 
 /// While this object lives, a stop of another context also stops this context, and progress of this
-/// context is reported to the other one.
+/// context is reported to the other context.
 class Watched {
  public:
   Watched(RunContext& context, const RunContext& call) : context_(context) {
@@ -57,8 +57,8 @@ RunningLoops::RunningLoops(HeldPart& held, std::int64_t field, const RunOptions&
   });
 }
 
-/// Runs a call that reads the loops. It waits for the lock without the GIL, because the owner of
-/// the lock may need the GIL.
+/// Runs a call that reads the loops. The call waits for the lock without the GIL, because the owner
+/// of the lock may need the GIL.
 template <class Use>
 auto RunningLoops::locked(Use&& use) {
   const py::gil_scoped_release no_gil;

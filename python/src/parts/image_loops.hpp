@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-// Loops of a part of a volume, which live across several calls.
+// This header declares the loops of a part of a volume, which live across several calls.
 #include <pybind11/pybind11.h>
 
 #include <cstdint>
@@ -16,7 +16,7 @@
 
 namespace ph::python {
 
-/// The facts about the bars of a part before they are computed.
+/// The facts about the bars of a part before the bars are computed.
 Facts facts_of(const ImagePart& part);
 
 /// A part of a volume with the voxels of its array, until ImageLoops takes them.
@@ -29,11 +29,11 @@ struct HeldPart {
   ImagePart part;
 };
 
-/// ImageLoops with a budget of its own. Each call can be stopped. Calls from several threads run
-/// one after another. After a call has failed, the state is lost, and all calls that need it fail.
+/// ImageLoops with its own budget. Each call can be stopped. Calls from several threads run one
+/// after another. After a call has failed, the state is lost, and all calls that need it fail.
 class RunningLoops {
  public:
-  /// Takes the voxels. Needs the GIL, as does the destructor.
+  /// Takes the voxels. This constructor and the destructor need the GIL.
   RunningLoops(HeldPart& held, std::int64_t field, const RunOptions& options);
 
   int part() const { return loops_->part(); }
@@ -59,9 +59,10 @@ class RunningLoops {
   RunContext context_;
   std::optional<ImageLoops> loops_;
 
-  std::mutex mutex_;  // guards the members below and the loops
+  std::mutex mutex_;  // protects the members below and the loops
   bool has_begun_ = false, is_broken_ = false;
-  bool has_news_ = false;  // true if there may be messages that nobody took
+  // True if there may be messages that nobody has taken.
+  bool has_news_ = false;
 };
 
 }  // namespace ph::python

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Parts of an image, as bytes.
+// This file converts parts of an image to and from bytes.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -19,8 +19,8 @@
 namespace ph::python {
 namespace {
 
-/// @param recipe a CubicalRecipe. @return the bytes, and the part itself if it has loops, else
-///     None.
+/// @param recipe a CubicalRecipe. @return the bytes, and the part itself if it has loops, otherwise
+/// None.
 py::tuple image_part(const py::object& recipe, int part, int parts, int min_dim,
                      std::optional<int> max_dim, bool cells, bool loops,
                      const RunOptions& options) {
@@ -56,8 +56,8 @@ ImagePart whole_of(std::span<const std::byte> bytes, const RunContext& context) 
   return part;
 }
 
-/// @param loops the results of ImageLoops for each part: the bars that joining the parts does not
-/// yield.
+/// @param loops the results of ImageLoops for each part, which are the bars that joining the parts
+/// does not give.
 Bars image_part_bars(const py::bytes& bytes, const std::vector<const Bars*>& loops,
                      std::int64_t field, const RunOptions& options) {
   const auto view = view_of(bytes);
@@ -72,7 +72,7 @@ Bars image_part_bars(const py::bytes& bytes, const std::vector<const Bars*>& loo
   });
 }
 
-/// The messages for the loops of each part.
+/// Returns the messages for the loops of each part.
 py::list told_to_loops(const py::bytes& bytes, const RunOptions& options) {
   const auto view = view_of(bytes);
   const auto all = run(options, false, [&](const RunContext& context) {

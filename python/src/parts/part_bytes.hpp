@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-// Parts as bytes: the form that travels between processes and is stored in files.
+// This header handles parts as bytes, which is the form in which parts are sent between processes
+// and stored in files.
 #include <pybind11/pybind11.h>
 
 #include <cstddef>
@@ -15,7 +16,7 @@ namespace py = pybind11;
 inline py::bytes to_python(std::span<const std::byte> bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
-/// Valid as long as Python holds the bytes.
+/// Returns a view that is valid as long as Python keeps the bytes.
 inline std::span<const std::byte> view_of(const py::bytes& bytes) {
   const std::string_view text = bytes;
   return std::as_bytes(std::span(text));

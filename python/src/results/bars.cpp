@@ -25,7 +25,7 @@ std::size_t place_in(const Bars& bars, std::int64_t i) {
   return static_cast<std::size_t>(i);
 }
 
-/// The cells of the bars of one dimension, one per row; -1 for a bar without such a cell.
+/// The cells of the bars of one dimension, one per row. The row is -1 for a bar without a cell.
 /// @param cell_of returns the numbers of the cell of the bar at an index.
 template <class CellOf>
 Block cells_of(const Bars& bars, int dim, std::size_t width, const CellOf& cell_of) {
@@ -73,7 +73,8 @@ py::tuple chain(const Bars& bars, std::int64_t i) {
                         Block::of(std::move(coefficients)));
 }
 
-/// The loops of a bar: vertices, coefficient, length, and how tight they are.
+/// The loops of a bar, each with its vertices, its coefficient and its length, and how tight the
+/// loops are.
 py::tuple loops_of(const Bars& bars, std::int64_t i) {
   const std::size_t place = place_in(bars, i);
   BarLoops own;

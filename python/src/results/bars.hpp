@@ -15,21 +15,23 @@ struct Facts {
   std::string engine;
   int max_dim = 0;
   bool collapses = false;           ///< true if edges were collapsed
-  std::optional<double> threshold;  ///< threshold of the values
-  std::optional<Index> vertices;    ///< for a Rips complex
+  std::optional<double> threshold;  ///< the threshold of the values
+  std::optional<Index> vertices;    ///< the number of vertices of a Rips complex
   std::optional<std::size_t> edges;
-  std::optional<double> covering_radius;  ///< covering radius of a subsample
-  std::vector<Index> hidden = {};         ///< points that are not part of an alpha complex
+  /// The covering radius of a subsample.
+  std::optional<double> covering_radius;
+  std::vector<Index> hidden = {};  ///< points that are not part of an alpha complex
 };
 
 /// A barcode with the data of its bars.
 struct Bars {
   Barcode barcode;
-  std::vector<BarLoops> loops = {};  ///< for each bar; empty: not requested
+  /// The loops of each bar; empty if they are not requested.
+  std::vector<BarLoops> loops = {};
   Facts facts = {};
   std::int64_t field = 2;
 
-  /// The bars of a dimension: `count` bars from index `first` on.
+  /// The bars of a dimension, which are `count` bars from index `first` on.
   struct Range {
     std::size_t first, count;
   };

@@ -112,7 +112,7 @@ std::span<const std::uint32_t> all_voxels(const Barcode& bars) {
 struct LoopLists {
   Lists vertices;                       // the vertices of each loop
   Lists facts;                          // for each loop, its bar and its coefficient
-  std::vector<double> lengths;          // NaN: unknown
+  std::vector<double> lengths;          // NaN if the length is unknown
   std::vector<std::int64_t> tightness;  // for each bar
 
   explicit LoopLists(const std::vector<BarLoops>& all) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-// Parts of a barcode, and barcodes from parts: for selections and for pickle.
+// This header makes parts of a barcode, and barcodes from parts, for selections and for pickle.
 #include <pybind11/pybind11.h>
 
 #include <cstdint>

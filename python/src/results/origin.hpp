@@ -9,7 +9,8 @@ namespace ph::python {
 
 namespace py = pybind11;
 
-/// The origin of a barcode as Python knows it, as far as files can state it; and back.
+/// Converts the origin of a barcode, as far as files can state it, from the form in Python, and
+/// back.
 BarcodeInfo info_of(const py::dict& meta);
 py::dict meta_of(const BarcodeInfo& info);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Clouds of arrays, of depth images and of files.
+// This file makes clouds from arrays, from depth images and from files.
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -32,15 +32,15 @@ Colours colours_of(const py::buffer_info& array) {
   return {static_cast<const std::uint8_t*>(array.ptr), static_cast<int>(array.shape.back())};
 }
 
-/// Adds a field to a cloud from arrays. The cloud has the fields that the same cloud in a .npy file
-/// would have: numbers and, if there are colours, red, green and blue.
+/// Adds a field to a cloud from arrays. The cloud gets the fields that the same cloud in a .npy
+/// file would have. These are numbers and, if there are colours, red, green and blue.
 void add_field(Cloud& cloud, const char* name, FieldType type) {
   cloud.fields.push_back({name, type, 1, cloud.stride});
   cloud.stride += size_of(type);
 }
 
-/// @param xyz float64 in C order: one row of points, or rows and columns of points.
-/// @param colours the colour of each point, as bytes; none: the cloud has no colours.
+/// @param xyz float64 in C order, as one row of points or as rows and columns of points.
+/// @param colours the colour of each point, as bytes; if not given, the cloud has no colours.
 std::shared_ptr<SceneCloud> cloud_of_points(const py::buffer& xyz,
                                             const std::optional<py::buffer>& colours,
                                             const RunOptions& options) {
@@ -111,7 +111,8 @@ std::shared_ptr<SceneCloud> cloud_of_depth(const py::buffer& image,
   return scene;
 }
 
-/// @param colour_path empty: no colours. @param scale none: guessed from the image.
+/// @param colour_path empty if there are no colours. @param scale if not given, guessed from the
+/// image.
 std::shared_ptr<SceneCloud> read_depth(const std::string& path, const std::string& colour_path,
                                        std::shared_ptr<NamedCamera> camera,
                                        std::optional<double> scale, const RunOptions& options) {

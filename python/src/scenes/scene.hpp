@@ -11,7 +11,7 @@
 
 namespace ph::python {
 
-/// Collects notes in the terms of the Python interface. @param notes outlives it.
+/// Collects notes in the terms of the Python interface. @param notes must outlive the result.
 inline segment::Note note_into(std::vector<std::string>& notes) {
   return [&notes](const Message& text) { notes.push_back(text.in_words(kWords)); };
 }
@@ -19,20 +19,23 @@ inline segment::Note note_into(std::vector<std::string>& notes) {
 /// A camera, and the notes about it.
 struct NamedCamera {
   Camera camera;
-  std::string calibration;  ///< its name or file; empty: it was given as numbers
+  /// The name or file of the camera; empty if the camera was given as numbers.
+  std::string calibration;
   std::vector<std::string> notes = {};
 };
 
-/// The cloud that is segmented. Nobody changes it.
+/// The cloud that is segmented. It never changes.
 struct SceneCloud {
   Cloud cloud;
-  std::shared_ptr<const NamedCamera> camera;  ///< for a depth image; null otherwise
+  /// The camera of a depth image; null for other clouds.
+  std::shared_ptr<const NamedCamera> camera;
   std::vector<std::string> notes = {};
 };
 
 /// The result of a segmentation, with its input.
 struct SegmentedScene {
-  std::shared_ptr<const SceneCloud> input;  ///< null: a stored tree was read
+  /// Null if a stored tree was read.
+  std::shared_ptr<const SceneCloud> input;
   segment::Segmentation result = {};
   std::vector<std::string> notes = {};
 

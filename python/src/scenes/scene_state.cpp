@@ -40,7 +40,7 @@ py::dict state_of_cloud(const Cloud& cloud) {
   return state;
 }
 
-/// All members except the data of the points.
+/// Makes a cloud with all members except the data of the points.
 Cloud cloud_of_state(const py::dict& state) {
   Cloud cloud;
   cloud.width = state["width"].cast<Index>();
@@ -55,7 +55,7 @@ Cloud cloud_of_state(const py::dict& state) {
   return cloud;
 }
 
-/// The content of a state. The arrays live as long as it does.
+/// The content of a state. The arrays live as long as this object.
 struct Members {
   py::buffer_info tree_array, data_array;
   Bytes tree, data;  // the bytes of these arrays

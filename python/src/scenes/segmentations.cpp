@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Segmentations of clouds: computed, cut again, stored.
+// This file computes segmentations of clouds, cuts them again, and stores them.
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -56,7 +56,7 @@ SegmentedScene segment_cloud(std::shared_ptr<SceneCloud> cloud, const SegmentOpt
   return scene;
 }
 
-/// A cloud, or a stored tree of one.
+/// Reads a cloud, or a stored tree of a cloud.
 py::object read_scene(const std::string& path, const RunOptions& options) {
   std::shared_ptr<SceneCloud> cloud;
   std::optional<SegmentedScene> stored;
@@ -76,7 +76,7 @@ py::object read_scene(const std::string& path, const RunOptions& options) {
   return stored ? py::cast(std::move(*stored)) : py::cast(std::move(cloud));
 }
 
-/// Cuts the tree anew; values that are not given do not change.
+/// Cuts the tree again. Values that are not given do not change.
 SegmentedScene cut(const SegmentedScene& scene, std::optional<double> value,
                    std::optional<Index> min_part, std::optional<Index> min_size,
                    std::optional<bool> objects, std::optional<double> min_seam,
@@ -140,7 +140,7 @@ std::vector<std::map<std::string, py::object>> segments(const SegmentedScene& sc
   return all;
 }
 
-/// The role of each surface and its plane, a x + b y + c z + d = 0.
+/// The role of each surface and its plane a x + b y + c z + d = 0.
 std::vector<std::pair<std::string, std::array<double, 4>>> surfaces(const SegmentedScene& scene) {
   std::vector<std::pair<std::string, std::array<double, 4>>> all;
   for (const segment::SceneSurface& s : scene.result.tree.surfaces) {
@@ -261,7 +261,7 @@ std::vector<Tracked> track(segment::LabelTracker& tracker, const SegmentedScene&
   return objects;
 }
 
-/// @param labels uint32, in C order, flat.
+/// @param labels uint32, in C order, as a flat array.
 Block track_labels(segment::LabelTracker& tracker, const py::buffer& labels) {
   return Block::of(tracker.update(vector_of<std::uint32_t>(labels)));
 }
