@@ -109,8 +109,8 @@ void Barcode::sort_values(const RunContext& context) {
   Ticker ticker(context, "bars", bars_.size());
   sort_by(bars_, [](const Bar& bar) { return bar.dim; });
   for_each_run(std::span(bars_), &Bar::dim, [&](std::span<Bar> of_dim) {
-    // mutant: barcode-order
     // The sum turns -0.0 into +0.0.
+    // mutant: barcode-order
     sort_by(of_dim, [](const Bar& bar) { return bar.birth + 0.0; });
     for_each_run(of_dim, &Bar::birth, [&](std::span<Bar> born_together) {
       ticker.tick();

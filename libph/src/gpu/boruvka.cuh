@@ -26,7 +26,7 @@ struct BoruvkaView {
   Nearest* nearest;
   // For each component, the bits of an upper bound for the length of its best edge.
   std::uint64_t* bounds;
-  std::uint64_t* ends;  // for each component, the ends of its first edge of that length
+  std::uint64_t* ends;   // for each component, the ends of its first edge of that length
   std::uint32_t* takes;  // for each component, the position that has its best edge
   std::uint32_t* joins;  // for each component, the component that it becomes part of
 

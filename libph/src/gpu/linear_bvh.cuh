@@ -79,7 +79,7 @@ struct BvhView {
     }
   };
 
-  std::uint32_t size;  // the number of points, at least 2
+  std::uint32_t size;         // the number of points, at least 2
   const double* coordinates;  // indexed by position
   // For each position, the number of the point in the caller's order.
   const std::uint32_t* rows;

@@ -8,8 +8,8 @@ namespace ph::segment {
 
 ConcavityNoise::ConcavityNoise(const std::vector<double>& ranges,
                                const std::vector<double>& values) {
-  // mutant: noise-fewest
   // The number of points needed for a reliable quantile.
+  // mutant: noise-fewest
   constexpr std::size_t fewest = 300;
   // mutant: noise-quantile
   constexpr double quantile = 0.84;  // one standard deviation up in a normal distribution

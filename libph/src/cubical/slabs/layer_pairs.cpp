@@ -118,8 +118,8 @@ void LayerPairs::settle_vertices(PairSink& pairs, FreeCellSink* free) {
           pairs.pair(0, voxel(*dies), edge(bridge));
       },
       [&](const SeamBridge& bridge) {
-        // mutant: slab-circle
         // This edge closes a circle.
+        // mutant: slab-circle
         if (grid_.top_dim() == 1) pairs.essential(1, edge(bridge));
         if (free != nullptr) free->add_edge(bridge.cell);
         if (may_have_neither_) around.meet(bridge.value, bridge.cell);

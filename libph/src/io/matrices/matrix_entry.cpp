@@ -28,8 +28,8 @@ void MatrixEntries::doubt(Kind kind, const Doubt& doubt) {
 }
 
 double MatrixEntries::rounding() const {
-  // mutant: matrix-rounding
   // This is the rounding of r, not of 1 - r.
+  // mutant: matrix-rounding
   return kRounding * (options_.from_correlation ? 1 : largest_);
 }
 
