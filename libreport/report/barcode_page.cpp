@@ -18,19 +18,20 @@
 namespace ph::report {
 namespace {
 
-constexpr Index kMostColumns = 3;  // most columns of positions
+constexpr Index kMostColumns = 3;  // the most columns of positions
 // Up to this number of points, positions are written exactly, because the page derives the edges of
 // a complex from them.
 constexpr Index kMostExactPoints = 50'000;
-constexpr std::size_t kMostVoxels = std::size_t{1} << 24;  // most voxels in a page
+// The most voxels in a page.
+constexpr std::size_t kMostVoxels = std::size_t{1} << 24;
 
 template <class Complex>
 const Complex* complex_as(const BarcodePage& page) {
   return page.complex ? std::get_if<Complex>(page.complex) : nullptr;
 }
 
-/// The image that the page shows; empty unless the input is an image with two or three axes that is
-/// not too large.
+/// The image that the page shows. Empty unless the input is an image that has two or three axes and
+/// is not too large.
 std::optional<CubicalImage> image_of(const BarcodePage& page) {
   const auto* cubical = complex_as<Cubical>(page);
   if (!cubical) return std::nullopt;
@@ -61,7 +62,8 @@ CloudMeta cloud_meta(const BarcodePage& page) {
 Metadata metadata_of(const BarcodePage& page, const std::optional<CubicalImage>& image) {
   Metadata meta;
   meta.title = page.title;
-  // For superlevel sets of f, barcode files hold the values of -f, but the page shows those of f.
+  // For superlevel sets of f, barcode files contain the values of -f, but the page shows the values
+  // of f.
   const auto* cubical = complex_as<Cubical>(page);
   meta.negated = cubical ? cubical->cubical_image().superlevel : page.negated;
   const bool of_values = page.complex ? image.has_value() : meta.negated;
@@ -143,7 +145,7 @@ void write_page(const Sink& sink, const BarcodePage& page, const RunContext& con
     leaf_of = shown.contracted.leaf_of;
   }
   if (image) add_image(report, *image, leaf_of);
-  // Leaves are known by the order in which the complex lists its vertices, which is not the order
+  // Leaves are indexed by the order in which the complex lists its vertices. This is not the order
   // of the points.
   if (complex_as<ExplicitComplex>(page)) leaf_of = {};
   if (page.points) add_points(report, *page.points, page.point_ids, leaf_of);

@@ -22,10 +22,11 @@ using segment::Method, segment::SceneTree, segment::Segmentation;
 // The largest error of stored positions is the edge of a voxel divided by this number.
 constexpr double kStepsAVoxel = 8;
 
-/// The points that are shown: all points of a cloud except its holes.
+/// The points that are shown, which are all points of a cloud except its holes.
 struct ShownPoints {
-  std::vector<std::uint32_t> index;   ///< index in the cloud
-  std::vector<std::uint32_t> vertex;  ///< vertex of the tree; kNone if there is none
+  std::vector<std::uint32_t> index;  ///< the index in the cloud
+  /// The vertex of the tree; kNone if there is none.
+  std::vector<std::uint32_t> vertex;
   std::vector<float> xyz;
 };
 
@@ -33,7 +34,7 @@ ShownPoints shown_points(const Cloud* cloud, const SceneTree& scene) {
   const std::vector<float> all = cloud ? cloud->xyz() : std::vector<float>();
   const std::size_t count = cloud ? all.size() / 3 : scene.points.size();
   ShownPoints shown;
-  std::size_t next = 0;  // index among the points that have a vertex
+  std::size_t next = 0;  // the index among the points that have a vertex
   for (std::size_t k = 0; k < count; ++k) {
     const std::size_t i = cloud ? k : static_cast<std::size_t>(scene.points[k]);
     const bool has_vertex = next < scene.points.size() && std::cmp_equal(scene.points[next], i);
@@ -56,7 +57,8 @@ std::uint32_t read_as(const std::byte* at) {
   return static_cast<std::uint32_t>(value);
 }
 
-/// Ground truth of the points that are shown; empty if the cloud has no integer field named label.
+/// The ground truth of the points that are shown. Empty if the cloud has no integer field named
+/// label.
 std::vector<std::uint32_t> truth_of(const Cloud& cloud, const ShownPoints& points) {
   const CloudField* field = cloud.find("label");
   if (!field || field->count != 1) return {};
@@ -149,8 +151,8 @@ std::vector<std::uint32_t> birth_vertices(const Barcode& barcode) {
   return vertices;
 }
 
-/// Writes the segments and surfaces of the segmentation: the label and the surface of each leaf.
-/// Other cuts also need the number of voxels of each leaf that lie on each surface that was found.
+/// Writes the segments and surfaces of the segmentation, as the label and the surface of each leaf.
+/// Other cuts also need the number of voxels of each leaf that are on each surface that was found.
 void add_answer(ReportFile& report, const Segmentation& s, const ContractedTree& contracted) {
   const std::size_t leaves = contracted.leaf_birth.size();
   std::vector<std::uint32_t> labels(leaves);
@@ -215,7 +217,7 @@ Metadata metadata_of(const ScenePage& page) {
   if (!surface) meta.value_unit = "m";
   meta.barcodes.push_back({meta.title});
   CloudMeta cloud{.unit = "m", .viewpoint = s.tree.viewpoint};
-  // In a camera's frame, y points down; in other clouds, z points up.
+  // In a camera's frame, y points down. In other clouds, z points up.
   if (s.tree.height > 1)
     cloud.up = {0, -1, 0};
   else if (s.tree.plane)

@@ -13,13 +13,15 @@
 namespace ph::report {
 namespace {
 
-// With up to this many merges a page stays interactive; merges at the lowest levels are contracted.
+// With up to this number of merges, a page stays interactive. Merges at the lowest levels are
+// contracted.
 constexpr std::size_t kMostMerges = 100'000;
 
 std::optional<MergeTree> tree_of(const Rips& rips, const RunContext& context) {
   RipsOptions options = rips.options();
   if (rips.size() == 0 || !rips.has_form(RipsForm::forest)) return std::nullopt;
-  if (options.merge_equal_points.value_or(false)) {  // the tree needs all points, unmerged
+  // The tree needs all points, including equal points.
+  if (options.merge_equal_points.value_or(false)) {
     options.merge_equal_points.reset();
     return tree_of(rips.with(std::move(options), context), context);
   }
@@ -44,7 +46,7 @@ std::optional<MergeTree> tree_of(const Alpha& alpha, const RunContext& context) 
   return merge_tree(alpha, context);
 }
 
-/// The birth vertex of each bar of H0, as a vertex of the tree; empty if the barcode has no cells.
+/// The birth vertex of each bar of H0, as a vertex of the tree. Empty if the barcode has no cells.
 std::vector<std::uint32_t> birth_vertices(const Barcode& barcode, const Cubical* cubical) {
   std::vector<std::uint32_t> vertices;
   std::vector<Index> extents;
@@ -67,9 +69,9 @@ double rounded(double x) {
   return x;
 }
 
-/// The middle of the widest gap between neighbouring levels in an ascending list; empty if no gap
+/// The middle of the widest gap between neighbouring levels in an ascending list. Empty if no gap
 /// is wider than `least`. A gap counts only if its upper level is at least a tenth of the largest
-/// level, because gaps far below occur by chance.
+/// level, because gaps at much lower levels occur by chance.
 /// @param width returns the distance between two levels.
 template <class Width>
 std::optional<double> middle_of_widest(const std::vector<double>& levels, double least,
@@ -86,10 +88,10 @@ std::optional<double> middle_of_widest(const std::vector<double>& levels, double
   return middle;
 }
 
-/// A cut in the gap where neighbouring levels of the largest merges have the largest ratio: levels
-/// above it are much more persistent than levels below. If no ratio is large, the cut of basins
-/// lies in the gap with the largest difference; the cut of components is the largest level, which
-/// leaves the fewest parts. Without merges, the cut is `from`.
+/// A cut in the gap where neighbouring levels of the largest merges have the largest ratio. Levels
+/// above this gap are much more persistent than levels below it. If no ratio is large, the cut of
+/// basins is in the gap with the largest difference, and the cut of components is the largest
+/// level, which leaves the fewest parts. Without merges, the cut is `from`.
 double cut_in_gap(const ContractedTree& contracted, const MergeTree& tree, CutRule rule,
                   double from) {
   constexpr std::ptrdiff_t most = 65;  // the upper end of a gap is one of the largest 64 levels
@@ -110,8 +112,8 @@ double cut_in_gap(const ContractedTree& contracted, const MergeTree& tree, CutRu
   return cut.value_or(levels.back());
 }
 
-/// The meaning of the values of a complex whose points enter together; such a complex has clusters
-/// at each value. Empty for any other complex, because its minima lie at different depths.
+/// The meaning of the values of a complex whose points enter together. Such a complex has clusters
+/// at each value. Empty for any other complex, because its minima have different depths.
 std::string_view label_of_values(const AnyComplex& complex) {
   if (std::holds_alternative<Rips>(complex)) return "distance";
   const auto* alpha = std::get_if<Alpha>(&complex);

@@ -37,7 +37,7 @@ void add_cells(ReportFile& report, const Barcode& barcode, std::string_view pref
     births.add(barcode.birth_cell(i));
     if (const auto death = barcode.death_cell(i)) deaths.add(*death);
   }
-  // A barcode without cells has no birth cells; the page needs the cells of all bars or of none.
+  // A barcode without cells has no birth cells. The page needs the cells of all bars or of no bar.
   if (births.numbers().empty()) return;
   report.add(fmt::format("{}/birth_cells", prefix), births.numbers());
   report.add(fmt::format("{}/death_cells", prefix), deaths.numbers());
@@ -73,7 +73,7 @@ void add_pictures(ReportFile& report, std::span<const Barcode> barcodes, const M
   options.negated = meta.negated;
   std::vector<std::string> pictures;
   for (std::size_t i = 0; i < barcodes.size(); ++i) {
-    // Memory with which the plot finds the longest bars.
+    // This is the memory with which the plot finds the longest bars.
     const MemoryClaim places(report.context().memory, 2 * barcodes[i].size() * sizeof(std::size_t));
     options.title = meta.barcodes[i].name;
     pictures.push_back(svg_plot(barcodes[i], options));

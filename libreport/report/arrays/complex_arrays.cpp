@@ -19,8 +19,8 @@ struct ValuedCell {
   friend auto operator<=>(const ValuedCell&, const ValuedCell&) = default;
 };
 
-/// The number that a point has in the input. @param ids the input numbers of the points that
-/// remain; empty if all remain.
+/// The number that a point has in the input. @param ids the input numbers of the remaining points;
+/// empty if all points remain.
 std::uint32_t number_of(Index point, std::span<const Index> ids) {
   return static_cast<std::uint32_t>(ids.empty() ? point : ids[static_cast<std::size_t>(point)]);
 }

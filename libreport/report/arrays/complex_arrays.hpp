@@ -11,8 +11,8 @@
 
 namespace ph::report {
 
-/// The data that a page cannot derive from the positions of points: the values at which the points
-/// enter, and the first cells. Vertices have the numbers of the input.
+/// The data that a page cannot derive from the positions of points. They are the values at which
+/// the points enter, and the first cells. Vertices have the numbers of the input.
 struct ComplexArrays {
   /// The birth of each point; NaN if the point is not a vertex. Empty if all points enter together.
   std::vector<float> births;
@@ -23,11 +23,12 @@ struct ComplexArrays {
 };
 
 /// The cells of a complex that a page shows. For a Rips complex, these are its first edges, from
-/// which the page finds the triangles; a Rips complex that holds only a forest has none. For a mesh
-/// with values or an alpha complex, they are its first edges and its first 2 000 000 triangles.
+/// which the page finds the triangles. A Rips complex that has only a forest has no cells on the
+/// page. For a mesh with values or an alpha complex, they are its first edges and its first 2 000
+/// 000 triangles.
 /// @param form the form of the Rips filtration; ignored for other complexes.
-/// @param count number of points. @param ids the numbers of the points in the input; empty if the
-/// input has no other points.
+/// @param count the number of points. @param ids the numbers of the points in the input; empty if
+/// the input has no other points.
 /// @throws Error (resource, cancelled).
 ComplexArrays complex_arrays(const AnyComplex& complex, std::optional<RipsForm> form,
                              std::size_t count, std::span<const Index> ids,

@@ -10,10 +10,10 @@ namespace ph::report {
 std::vector<std::uint32_t> touching_in_picture(std::span<const std::uint32_t> index,
                                                std::span<const std::uint32_t> leaf,
                                                std::size_t width) {
-  constexpr std::size_t widest_gap = 8;  // pixels
+  constexpr std::size_t widest_gap = 8;  // in pixels
   struct Seen {
     std::uint32_t leaf = kNone;
-    std::size_t place = 0;  // column or row
+    std::size_t place = 0;  // the column or the row
   };
   Seen left;                       // the last leaf seen in this row
   std::vector<Seen> above(width);  // the last leaf seen in each column

@@ -14,8 +14,8 @@ bool is_kept(const Merge& m, CutRule rule, double from, Index min_part) {
   return rule == CutRule::value ? m.value > from : m.separates(from, min_part);
 }
 
-/// The level of a merge, which the page compares with the cut. It is exactly the double with which
-/// the program compares.
+/// The level of a merge, which the page compares with the cut. It is exactly the double that the
+/// program compares with the cut.
 double level(const Merge& m, CutRule rule) {
   return rule == CutRule::value ? m.value : m.persistence();
 }
@@ -82,7 +82,8 @@ double least_cut(const MergeTree& tree, CutRule rule, std::size_t most) {
       }
     return high > low && std::isfinite(high - low) ? high - low : 1;
   }
-  // Rule persistence keeps merges at `from` itself; rule value keeps only merges above it.
+  // The rule `persistence` keeps merges at `from` itself. The rule `value` keeps only merges above
+  // it.
   if (levels.size() <= most)
     return rule == CutRule::persistence ? *std::ranges::min_element(levels) : 0;
   const auto last = levels.begin() + static_cast<std::ptrdiff_t>(levels.size() - most);

@@ -11,10 +11,10 @@
 namespace ph::report {
 namespace {
 
-constexpr std::size_t kBlock = 64;  // bytes
+constexpr std::size_t kBlock = 64;  // in bytes
 using State = std::array<std::uint32_t, 8>;
 
-// FIPS 180-4, 4.2.2: from the cube roots of the first 64 primes.
+// These numbers of FIPS 180-4, 4.2.2, are derived from the cube roots of the first 64 primes.
 constexpr std::array<std::uint32_t, 64> kRounds = {
     0x428a2f98, 0x71374491, 0xb5c0fbcf, 0xe9b5dba5, 0x3956c25b, 0x59f111f1, 0x923f82a4, 0xab1c5ed5,
     0xd807aa98, 0x12835b01, 0x243185be, 0x550c7dc3, 0x72be5d74, 0x80deb1fe, 0x9bdc06a7, 0xc19bf174,
@@ -56,8 +56,7 @@ void add_block(State& state, const std::byte* block) {
   for (std::size_t i = 0; i < state.size(); ++i) state[i] += added[i];
 }
 
-/// @param done_with is called as done_with(begin, size) after each part of about a MiB has been
-/// read.
+/// @param done_with called as done_with(begin, size) after each part of about a MiB has been read.
 template <class DoneWith>
 std::string hex_of(std::span<const std::byte> bytes, const RunContext& context,
                    DoneWith&& done_with) {
@@ -74,7 +73,7 @@ std::string hex_of(std::span<const std::byte> bytes, const RunContext& context,
     add_block(state, bytes.data() + at);
     ticker.tick();
   }
-  // The padding: a one, zeros, and the length in the last eight bytes.
+  // The padding consists of a one, zeros, and the length in the last eight bytes.
   const std::span last = bytes.subspan(at);
   const std::uint64_t bits = std::uint64_t{8} * bytes.size();
   std::array<std::byte, 2 * kBlock> rest{};

@@ -121,7 +121,7 @@ std::string without_tags(std::string_view json) {
 }  // namespace
 
 std::string title_of(const std::string& path) {
-  return path.substr(path.rfind('/') + 1);  // the whole path if it has no slash
+  return path.substr(path.rfind('/') + 1);  // this is the whole path if it has no slash
 }
 
 std::string metadata_json(const Metadata& m) {

@@ -19,8 +19,8 @@ ReportFile::ReportFile(const Sink& sink, const Metadata& metadata, const RunCont
 
 void ReportFile::add_pictures(std::span<const std::string> pictures) {
   sink_("<noscript>\n<p>Without JavaScript this page is a picture of its barcode.</p>\n");
-  // Leaves out the XML declaration, which HTML does not have. Texts in an SVG are escaped: none of
-  // them can end the element.
+  // The XML declaration is left out, because HTML does not have it. Texts in an SVG are escaped, so
+  // no text can end the element.
   for (const std::string& svg : pictures) sink_(std::string_view(svg).substr(svg.find("<svg")));
   sink_("</noscript>\n");
 }
