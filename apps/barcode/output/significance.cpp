@@ -24,7 +24,8 @@ void require_significance(BarcodeFormat format, const Job& job) {
         "with a large p afterwards");
   if (job.question.complex == ComplexKind::delaunay_rips)
     reject(
-        "--complex delaunay-rips, expected rips, alpha or delaunay-cech, for which the law holds");
+        "--complex delaunay-rips, expected rips, alpha or delaunay-cech, because p-values are "
+        "known only for these");
   if (job.question.rips.dtm_neighbours || !job.question.vertex_weights.empty() ||
       !job.question.weights.empty())
     reject(

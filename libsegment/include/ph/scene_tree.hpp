@@ -135,7 +135,7 @@ struct CutOptions {
   /// method paper, the distance at which components are taken, in metres, at most the distance of
   /// the tree. The value is >= 0.
   double value = 1;
-  /// Not paper: fewest voxels of a part, >= 1; a smaller one joins a neighbour.
+  /// Not paper: the fewest voxels of a part, >= 1. A smaller part joins a neighbouring part.
   Index min_part = 200;
   Index min_size = 32;  ///< fewest voxels of a segment, >= 1
   bool objects = true;  ///< surface: join the visible parts of an object

@@ -66,7 +66,8 @@ struct SegmentOptions {
   // For methods surface and supervoxels. For fields without a value, see cut.
   std::optional<double> min_persistence = {};  ///< least persistence of a part, >= 0; unit: Segment
   bool objects = true;  ///< surface: join the visible parts of an object; false: keep them apart
-  std::optional<Index> min_part = {};  ///< fewest voxels of a part; a smaller one joins, >= 1
+  /// The fewest voxels of a part, >= 1. A smaller part joins a neighbouring part.
+  std::optional<Index> min_part = {};
   /// Surface: least strength of a seam, in multiples of min_persistence, >= 0; see CutOptions.
   std::optional<double> min_seam = {};
   /// Supervoxels: the largest distance of the surface from a seed, metres, at least one voxel.

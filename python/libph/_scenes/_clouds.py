@@ -134,6 +134,6 @@ def _colours(data: Any, shape: tuple[int, ...]) -> NDArray[np.uint8]:
     if wrong.any():
         index = [int(i) for i in np.unravel_index(int(np.argmax(wrong)), array.shape)]
         raise DataError(f"colours: {_arrays.place_of(index)}: found {array[tuple(index)]}, expected "
-                        f"0 to {most} of type {array.dtype}")
+                        f"a number from 0 to {most} (the array is {array.dtype})")
     bytes_of = np.floor(array * 255 + 0.5) if is_share else array
     return np.asarray(bytes_of, dtype=np.uint8)

@@ -115,7 +115,7 @@ DEPTH = np.full((20, 30), 0.5)
     (DEPTH, {"intrinsics": CAMERA, "depth_scale": 0.001}, ph.UsageError, "if a unit is 0.001 m: 1000"),
     (DEPTH, {"intrinsics": CAMERA, "colours": np.zeros((20, 31, 3), np.uint8)}, ph.UsageError,
      r"colours: found an array of shape \(20, 31, 3\), expected \(20, 30, 3\)"),
-    (CLOUD, {"colours": CLOUD * 2}, ph.DataError, "colours: row .* expected 0 to 1"),
+    (CLOUD, {"colours": CLOUD * 2}, ph.DataError, "colours: row .* a number from 0 to 1"),
     (CLOUD, {"depth_scale": 1000}, ph.UsageError, "depth_scale: does nothing for a cloud"),
     (CLOUD, {"method": "best"}, ph.UsageError, "method: found 'best', expected"),
     (CLOUD, {"method": "paper", "supervoxels": 0.1}, ph.UsageError, "supervoxels: found method"),

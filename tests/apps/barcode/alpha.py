@@ -251,7 +251,7 @@ class Alpha(ProgramTest):
                 (64, [*alpha, "--weights", "weights.txt", "--alpha-values", "radius"], "expected squared"),
                 (64, ["unit.txt", "--complex", "delaunay-cech", "--weights", "weights.txt"], "expected alpha"),
                 (64, ["unit.txt", "--complex", "delaunay-rips", "--wrap", "1=x.ply"], "expected alpha"),
-                (64, ["unit.txt", "--complex", "delaunay-rips", "--significance"], "for which the law holds"),
+                (64, ["unit.txt", "--complex", "delaunay-rips", "--significance"], "known only for these"),
                 (64, [*alpha, "--weights", "weights.txt", "--significance"], "vertices with weights"),
                 (65, [*alpha, "--weights", "few.txt"], "few.txt"),
                 (65, [*alpha, "--weights", "endless.txt"], "expected a finite number"),

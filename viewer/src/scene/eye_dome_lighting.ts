@@ -87,7 +87,8 @@ void main() {
 
 export class EyeDome {
   readonly scene = new Scene(); // objects that are drawn this way
-  /// The size of the marks of points, in space or as an angle: within a mark, shading is uniform.
+  /// The size of the mark drawn for each point, as a length or (if `isAngle`) as an angle. Within a
+  /// mark, shading is uniform.
   mark = 0;
   isAngle = false;
   lamp = true; // objects without their own shades are lit from the eye
