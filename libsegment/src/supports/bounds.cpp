@@ -26,8 +26,8 @@ std::vector<Voxels> voxels_of(const Parts& parts) {
 
 /// True if nearly all points are on the viewpoint's side of a plane.
 bool bounds_the_view(const Plane& plane, const CloudView& cloud) {
-  constexpr PlaneMargin margin{0.02, 0.02};  // the margin is a multiple of the noise
-  // A share of all points, which may be reflections or flying pixels.
+  constexpr PlaneMargin margin{0.02, 0.02};  // metres, and metres at a range of one metre
+  // The share of points behind the plane that reflections and flying pixels may cause.
   constexpr double most_behind = 0.01;
   return share_behind(cloud, plane, margin) <= most_behind;
 }
