@@ -22,8 +22,8 @@ bars: the same number in each dimension, with the same total length.
 A ratio is ≈ 1 if the door and the program differ by at most 8 MB, or by at most 0.02 s and a
 quarter of the CPU time that was subtracted: smaller differences are noise. `--check` exits with 1,
 and names the rows, if a door takes more than CPU or MEMORY times as much as the program and the
-difference exceeds the noise. The script always exits with 1 if a door fails or finds other bars.
-Needs NumPy. A door that is not built is left out.
+difference exceeds the noise in each of three measurements. The script always exits with 1 if a door
+fails or finds other bars. Needs NumPy. A door that is not built is left out.
 """
 import argparse
 import csv
@@ -305,6 +305,18 @@ def faults(results, bounds):
                 yield f"{result.row}: {result.door}: {said}"
 
 
+def confirmed(measure, bounds, again=2):
+    """The results of a row. While they exceed the bounds, the row is measured again, up to `again`
+    times: on a busy machine the start of a door varies, but a door that costs too much does so each
+    time. A door that fails or finds other bars is not tried again."""
+    results = list(measure())
+    for _ in range(again):
+        if any(faults(results, None)) or not any(faults(results, bounds)):
+            break
+        results = list(measure())
+    return results
+
+
 def parse():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("build", type=lambda path: pathlib.Path(path).resolve(),
@@ -340,7 +352,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         comparison = Comparison(options, pathlib.Path(folder))
         for row in chosen:
-            some = list(comparison.results(row))
+            some = confirmed(lambda: comparison.results(row), bounds)
             print(line(row, some), flush=True)
             results += some
     if options.csv:

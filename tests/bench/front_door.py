@@ -74,6 +74,15 @@ class Judgement(unittest.TestCase):
         said, = self.said(Result("a row", "Python", *cost, BARS, BARS, 0.04))
         self.assertIn("9 times the CPU time", said)
 
+    def test_only_what_is_beyond_a_bound_each_time_counts(self):
+        good, bad, failed = result(), result(cpu=9.0), result(bars=None)
+        for measured, last, left in (([good, bad], good, [bad]), ([bad, good, bad], good, [bad]),
+                                     ([bad, bad, bad, good], bad, [good]),
+                                     ([failed, good], failed, [good])):
+            rest = iter(measured)
+            found = front_door.confirmed(lambda: [next(rest)], (2, 1.5))
+            self.assertEqual((found, list(rest)), ([last], left))
+
     def test_summaries(self):
         self.assertEqual(front_door.summary_of_csv("dim,birth,death\n0,0,1\n0,0,inf\n1,1,1.25\n", 1),
                          {0: (2, 1.0), 1: (1, 0.25)})
