@@ -1,0 +1,102 @@
+# SPDX-License-Identifier: MIT
+"""generated_scenes.py BUILD: the generator of RGB-D frames sees what geometry says, and the same
+seed gives the same frame."""
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+try:
+    import numpy
+except ModuleNotFoundError:
+    print("SKIPPED: no NumPy")
+    sys.exit(77)
+
+BUILD = pathlib.Path(sys.argv.pop(1))
+SCENES = pathlib.Path(__file__).resolve().parents[2] / "bench/scenes"
+sys.path.insert(0, str(SCENES))
+import arrangements  # noqa: E402
+import cameras  # noqa: E402
+import frames  # noqa: E402
+import shapes  # noqa: E402
+import score  # noqa: E402
+
+VIEW = cameras.View.towards(cameras.SENSORS["structured-light"], (0.3, -0.8, 0.7), (0, 0, 0.05))
+
+
+def seen(solid):
+    """The points of the world at which the camera sees a solid."""
+    image = cameras.cast(VIEW, [(0, solid)])
+    points = (VIEW.rays() * image.depth[..., None])[image.thing == 0]
+    return points @ VIEW.turn + VIEW.eye
+
+
+class Shapes(unittest.TestCase):
+    def test_points_of_a_ball_are_at_its_radius(self):
+        away = numpy.linalg.norm(seen(shapes.ball(0.1)) - (0, 0, 0.1), axis=1)
+        self.assertGreater(len(away), 5000)
+        self.assertLess(abs(away - 0.1).max(), 0.001)  # the ball is a chain of 24 frustums
+
+    def test_points_of_a_turned_box_are_on_its_faces(self):
+        turn = shapes.turned("z", 0.5)
+        points = seen(shapes.Box(size=(0.2, 0.1, 0.15)).placed(turn, (0.05, 0, 0)))
+        own = (points - (0.05, 0, 0)) @ turn
+        faces = abs(abs(own - (0, 0, 0.075)) - (0.1, 0.05, 0.075))
+        self.assertLess(faces.min(axis=1).max(), 1e-9)
+        self.assertTrue((abs(own - (0, 0, 0.075)) <= numpy.array((0.1, 0.05, 0.075)) + 1e-9).all())
+
+    def test_a_cup_is_hollow(self):
+        points = seen(shapes.cup(0.05, 0.1, 0.004))
+        away = numpy.hypot(points[:, 0], points[:, 1])
+        self.assertTrue(((away < 0.047) & (points[:, 2] < 0.08)).any())
+        self.assertLess(away.max(), 0.05 + 1e-9)
+
+    def test_what_is_let_down_touches_and_does_not_cut(self):
+        scene = arrangements.Scene("test")
+        scene.add("support", shapes.Box(size=(1, 1, 0.1)).placed(shift=(0, 0, -0.1)))
+        below, = arrangements.rest(scene, (shapes.Box(size=(0.2, 0.2, 0.1)),), 0, 0)
+        scene.add("object", below)
+        above, = arrangements.rest(scene, (shapes.cylinder(0.05, 0.1),), 0.05, 0)
+        self.assertAlmostEqual(above.corners()[:, 2].min(), 0.1)
+        self.assertIsNone(arrangements.rest(scene, (shapes.cylinder(0.05, 0.1),), 0.12, 0))  # it tips
+
+
+class Frames(unittest.TestCase):
+    def test_each_kind(self):
+        for kind in arrangements.KINDS:
+            with self.subTest(kind):
+                points, colours, labels = frames.frame(kind, 3)
+                there = numpy.isfinite(points).all(axis=2)
+                self.assertEqual(colours.shape, points.shape)
+                self.assertFalse((labels[~there] > 0).any())
+                self.assertGreaterEqual(len(numpy.unique(labels[labels >= 10])), 1)
+                self.assertEqual((labels == 1).any(), kind != "loose")
+
+    def test_the_same_seed_gives_the_same_bytes(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for name in "ab":
+                frames.write(pathlib.Path(folder, name), *frames.frame("stack", 7))
+            first, second = (pathlib.Path(folder, name).read_bytes() for name in "ab")
+        self.assertEqual(first, second)
+        self.assertFalse(numpy.array_equal(frames.frame("stack", 7)[2], frames.frame("stack", 8)[2]))
+
+
+class Scores(unittest.TestCase):
+    def test_strays(self):
+        truth = numpy.array([[1, 1, 1, 10, 10, 0, 0]])
+        self.assertEqual(score.strays(truth, numpy.array([[5, 5, 0, 6, 6, 7, 7]])), 1)
+        self.assertEqual(score.strays(truth, numpy.array([[5, 0, 0, 5, 5, 0, 0]])), 0)
+
+    def test_things_on_a_table(self):
+        command = [sys.executable, "-B", SCENES / "score.py", BUILD / "apps/segment/ph-segment", "--kinds", "table",
+                   "--seeds", "1-3", "--one-edge"]
+        run = subprocess.run([*command, "--least", "table=0.9"], capture_output=True, text=True, timeout=280)
+        self.assertEqual(run.returncode, 0, run.stdout + run.stderr)
+        self.assertIn("table     F 0.9", run.stdout)
+        run = subprocess.run([*command, "--least", "table=1.1"], capture_output=True, text=True, timeout=280)
+        self.assertEqual(run.returncode, 1, run.stdout + run.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
