@@ -36,8 +36,8 @@ class BadInput : public testing::TestWithParam<Method> {
     else
       EXPECT_EQ(s.cut.segments.size(), objects);
   }
-  /// The number of segments for a few separate voxels, which are too few for a segment but form a
-  /// supervoxel.
+  /// The number of segments expected of a few isolated voxels: they form a supervoxel, but they are
+  /// too few for a segment of another method.
   std::size_t a_crumb() const { return GetParam() == Method::supervoxels ? 1 : 0; }
 };
 INSTANTIATE_TEST_SUITE_P(Methods, BadInput,

@@ -29,8 +29,9 @@ class SignalWatch {
   std::thread thread_;
 };
 
-/// While this object lives, signals do not end the process. It is used at times when a file that
-/// signals must remove is not registered yet. Only one thread at a time may have such an object.
+/// While this object lives, signals do not end the process. It is used while a file that must be
+/// removed if a signal arrives is not registered yet. Only one thread at a time may have such an
+/// object.
 class SignalsWait {
  public:
   SignalsWait();

@@ -30,7 +30,7 @@ void write_distances(OutputFile& file, const PairDistances& distances,
 void write_matrix(OutputFile& file, const PairDistances& distances, bool is_npy,
                   const std::vector<std::string>& inputs);
 
-/// Writes the distances as a member of a document, "distances": […].
+/// Writes the distances as the member "distances": […] of a JSON document.
 void write_distance_rows(OutputFile& file, const PairDistances& distances);
 
 }  // namespace ph::distance_program

@@ -42,9 +42,9 @@ class Voxels {
   using Numbers =
       std::variant<std::vector<std::uint8_t>, std::vector<std::uint16_t>, std::vector<std::int16_t>,
                    std::vector<float>, std::vector<double>, BorrowedVoxels>;
-  /// The part that copies share. Owners are counted here because the last owner, which changes
-  /// numbers in place, must be sure that the others, on their threads, are done reading: an
-  /// acquiring load guarantees this, std::shared_ptr::use_count() does not.
+  /// The part that copies share. The last owner changes the numbers in place. It must know that the
+  /// other threads have finished reading. An acquiring load of this counter guarantees it, but
+  /// std::shared_ptr::use_count() does not.
   struct Shared {
     Numbers numbers;
     std::atomic<std::size_t> owners{1};

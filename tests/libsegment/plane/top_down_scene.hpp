@@ -13,9 +13,9 @@
 
 namespace ph::segment::test {
 
-/// A camera above a table, as over a bin. The camera is at the origin and looks along z, and the
-/// foot of the perpendicular from the camera to the table is in the picture. Boxes with any
-/// rotation stand on the table, in the middle of the picture and around it.
+/// A camera that looks down on a table, as in bin picking. The camera is at the origin and looks
+/// along z, and the foot of the perpendicular from the camera to the table is in the picture. Boxes
+/// with any rotation stand on the table, in the middle of the picture and around it.
 class TopDownScene {
  public:
   template <class Random>

@@ -20,7 +20,7 @@ struct NumberedCell {
 /// The cells of one dimension that are not paired inside their stars.
 struct CriticalCells {
   struct Place {
-    double value;        ///< in the order of the stars
+    double value;        ///< as stars compare it: negated in the T-construction
     std::uint32_t cell;  ///< index into `cells`
   };
   std::pmr::vector<NumberedCell> cells;  ///< in the order of the grid
