@@ -56,7 +56,7 @@ std::optional<std::vector<std::byte>> kept_part_file(const std::string& path,
   for (const std::string& input : inputs) {
     const auto changed = std::filesystem::last_write_time(files::path_of(input), error);
     if (!error && changed <= written) continue;  // mutant: part-age
-    session.note(fmt::format("--resume: {} is older than {}: computed again", path, input));
+    session.note(fmt::format("--resume: {} is older than {}; it is computed again", path, input));
     return std::nullopt;
   }
   return read_part_file(path, session);

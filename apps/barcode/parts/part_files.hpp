@@ -40,7 +40,8 @@ std::optional<std::vector<std::byte>> kept_part_file(const std::string& path,
 /// The part in a file, for --resume. If the file is damaged or contains another part, a note
 /// reports this, and the part must be computed again.
 /// @param of_bytes makes a part from bytes; throws Error (bad_data) on other bytes.
-/// @param why_not says why a part is not the requested part; empty if it is the requested part.
+/// @param why_not a predicate that says why a part is not the requested part, for example "is
+/// another part"; empty if it is the requested part.
 template <class OfBytes, class WhyNot>
 std::optional<std::invoke_result_t<OfBytes, std::span<const std::byte>>> kept_part(
     const std::string& path, std::span<const std::string> inputs, app::Session& session,
@@ -52,11 +53,12 @@ std::optional<std::invoke_result_t<OfBytes, std::span<const std::byte>>> kept_pa
     auto part = of_bytes(std::span<const std::byte>(*bytes));
     why = why_not(part);
     if (why.empty()) return part;
+    why = " " + why;
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::bad_data) throw;
-    why = error.marked();
+    why = ": " + error.marked();
   }
-  session.note("--resume: " + path + ": " + why + ": computed again");
+  session.note("--resume: " + path + why + "; it is computed again");
   return std::nullopt;
 }
 

@@ -38,7 +38,7 @@ def rows(Row):
         "--from-correlation": Row("--from-correlation", variant="correlation", unfit="not a correlation"),
         "--diagonal": Row("--diagonal", "births", variant="births"),
         "--nan": Row("--nan", "drop", variant="nan"),
-        "--columns": Row("--columns", "1", variant="labelled", unfit="as many as columns|ragged row|one point per row"),
+        "--columns": Row("--columns", "1", variant="labelled", unfit="as many as there are columns|ragged row|one point per row"),
         "--delay": Row("--delay", "2", unfit="expected a time series|an image has rows|points of R.4, expected"
                        "|found more than 13|for images only, found points"),
         "--channel": Row("--channel", "red", variant="colour", unfit="no channel"),

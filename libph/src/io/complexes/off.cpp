@@ -18,12 +18,12 @@ constexpr std::array<std::string_view, 9> kWords{"OFF",   "COFF",   "NOFF",   "C
                                                  "STOFF", "STCOFF", "STNOFF", "STCNOFF"};
 constexpr std::size_t kLongest = 7;
 
-// Goes to the next line of data, which must exist.
+// Goes to the line of the next vertex or face, which must exist.
 void need_line(TextLines& lines, const char* what, std::size_t have, std::size_t all) {
   if (!lines.next()) {
     lines.input().fail({fmt::format("truncated: too few {}", what),
                         fmt::format("{}", have),
-                        fmt::format("{}, as line 1 says", all),
+                        fmt::format("{}, the number in the header", all),
                         {}});
   }
 }
@@ -54,7 +54,11 @@ Mesh read_off(const Input& input, const ReadOptions& options) {
     input.fail_at(1, 1, {"not an OFF file", "another first word", "OFF", {}});
   }
   if (!cells.more()) {
-    need_line(lines, "counts", 0, 3);
+    if (!lines.next())
+      input.fail({"truncated: the counts are missing",
+                  "the end of the file",
+                  "the numbers of vertices and faces",
+                  {}});
     cells.start();
   }
   const auto vertices = static_cast<std::size_t>(cells.integer(0, kMost, "number of vertices"));

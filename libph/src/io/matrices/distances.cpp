@@ -60,7 +60,7 @@ DistanceMatrix read_text_square(const Input& input, const ReadOptions& options) 
     if (row == n) {
       lines.fail(lines.line().data(),
                  {"not square", fmt::format("more than {} rows", n),
-                  fmt::format("as many as columns, {}", n), detail::why_square(options)});
+                  fmt::format("{}, as many as there are columns", n), detail::why_square(options)});
     }
     entries.start();
     std::size_t k = 0, cell = 0;

@@ -134,8 +134,8 @@ const Member& chosen(const Input& input, const std::vector<Member>& members) {
   if (input.member().empty()) {
     if (count == 1) return members.front();
     if (count == 0) input.fail({"empty archive", "no arrays", "one", {}});
-    input.fail({"several arrays in the archive", fmt::format("{}: {}", count, list), "one",
-                fmt::format("choose one: {}:{}", input.name(), names.front())});
+    input.fail({"several arrays in the archive", fmt::format("{} ({})", count, list), "one",
+                fmt::format("choose one, for example {}:{}", input.name(), names.front())});
   }
   for (const Member& member : members) {
     if (member.array() == input.member() || member.name == input.member()) return member;
