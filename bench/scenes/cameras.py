@@ -4,6 +4,7 @@
 A camera looks along its z axis; x is to the right and y is down. Errors follow what is published of
 such sensors: axial noise that grows with depth² and rounding of disparity (Khoshelham & Elberink,
 2012; Nguyen, Izadi & Lovell, 2012), the shadow of the projector, ragged edges, and mixed pixels."""
+
 import dataclasses
 import math
 
@@ -49,7 +50,9 @@ class View:
 
     @staticmethod
     def towards(sensor, eye, target, roll=0.0):
-        """A camera at `eye` that looks at `target`, with z up in the world, then rolled (radians)."""
+        """A camera at `eye` that looks at `target`, with z up in the world.
+
+        @param roll the angle, in radians, by which it is then turned about its axis."""
         eye = numpy.asarray(eye, float)
         forward = numpy.asarray(target, float) - eye
         forward /= numpy.linalg.norm(forward)
@@ -166,7 +169,9 @@ def measured(view, image, generator):
     """The image that the sensor measures: noise, rounding, shadow, ragged edges, mixed pixels. A
     mixed pixel belongs to no thing: its number is -2."""
     sensor = view.sensor
-    lost = shadow(sensor, image.depth) if sensor.baseline > 0 else numpy.zeros_like(image.thing, bool)
+    lost = (
+        shadow(sensor, image.depth) if sensor.baseline > 0 else numpy.zeros_like(image.thing, bool)
+    )
     image = ragged(sensor, image, generator)
     depth, thing = image.depth.copy(), image.thing.copy()
     around = numpy.pad(depth, 1, mode="edge")

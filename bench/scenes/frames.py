@@ -4,27 +4,32 @@
 
     frames.py FOLDER --kinds stack,bin --seeds 0-19
 
-writes FOLDER/KIND-SEED.pcd: an organised cloud with the fields x y z rgb label, in metres, as a
-depth camera at the origin sees it. The label is 0 where there is no depth or a pixel mixes two
-depths, 1 for the support, 2 wall, 3 floor, 4 shelf, 5 bin, 6 ceiling, and 10, 20, 30, … for the
-objects. The same kind and seed give the same frame. Needs numpy.
+writes FOLDER/KIND-SEED.pcd: an organised cloud with the fields x y z label rgb, in metres, as a
+depth camera at the origin sees it. The label is 0 where there is no depth, where a pixel mixes two
+depths, and on objects of which fewer than 300 pixels are seen. It is 1 on the support, 2 on walls,
+3 on the floor, 4 on the boards of a shelf, 5 on a bin, 6 on the ceiling, and a multiple of 10 from
+20 on for each object. The same kind and seed give the same frame. Needs numpy.
 """
+
 import argparse
 import pathlib
 import sys
 
 import numpy
 
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "segmentation"))
 import arrangements
 import cameras
+import point_clouds
+from segmentation_metrics import FIRST_OBJECT
 
-FEWEST = 300  # pixels: an object of which less is seen is left out of the truth
+FEWEST = 300  # pixels of an object
 
 
 def frame(kind, seed, sensor=None):
-    """Points (rows x columns x 3, NaN without depth), colours (bytes) and labels of one frame.
+    """A frame as point_clouds.Scene, and the colours of its points as bytes.
 
-    @param sensor a name of cameras.SENSORS; otherwise the seed chooses one."""
+    @param sensor a name of cameras.SENSORS; without it, the seed chooses one."""
     random = numpy.random.default_rng([list(arrangements.KINDS).index(kind), seed])
     scene = arrangements.KINDS[kind](random)
     names = list(cameras.SENSORS)
@@ -33,38 +38,17 @@ def frame(kind, seed, sensor=None):
     view = cameras.View.towards(optics, scene.eye, scene.target, random.normal(0, 0.05))
     solids = [(n, solid) for n, thing in enumerate(scene.things) for solid in thing.solids]
     image = cameras.measured(view, cameras.cast(view, solids), random)
-    labels = numpy.zeros(image.thing.shape, numpy.uint32)
+    labels = numpy.zeros(image.thing.shape, numpy.int32)
     for n, thing in enumerate(scene.things):
         mask = image.thing == n
         if thing.role != "object":
             labels[mask] = arrangements.ROLES.index(thing.role)
         elif numpy.count_nonzero(mask & numpy.isfinite(image.depth)) >= FEWEST:
-            labels[mask] = 10 * (n + 1)
-    labels[~numpy.isfinite(image.depth)] = 0
-    points = (view.rays() * image.depth[..., None]).astype(numpy.float32)
-    return points, image.colour.astype(numpy.uint8), labels
-
-
-def write(path, points, colours, labels):
-    rows = numpy.empty(labels.size, [("xyz", "<f4", 3), ("rgb", "<u4"), ("label", "<u4")])
-    rows["xyz"], rows["label"] = points.reshape(-1, 3), labels.ravel()
-    r, g, b = colours.reshape(-1, 3).astype(numpy.uint32).T
-    rows["rgb"] = r << 16 | g << 8 | b
-    height, width = labels.shape
-    header = (
-        "VERSION 0.7",
-        "FIELDS x y z rgb label",
-        "SIZE 4 4 4 4 4",
-        "TYPE F F F U U",
-        "COUNT 1 1 1 1 1",
-        f"WIDTH {width}",
-        f"HEIGHT {height}",
-        "VIEWPOINT 0 0 0 1 0 0 0",
-        f"POINTS {labels.size}",
-        "DATA binary",
-        "",
-    )
-    pathlib.Path(path).write_bytes("\n".join(header).encode() + rows.tobytes())
+            labels[mask] = FIRST_OBJECT * (n + 2)
+    points = (view.rays() * image.depth[..., None]).astype(numpy.float32).reshape(-1, 3)
+    name = f"{kind}-{seed}"
+    seen = point_clouds.Scene(name, points, labels.ravel(), optics.width, optics.height)
+    return seen, image.colour.astype(numpy.uint8).reshape(-1, 3)
 
 
 def seeds(text):
@@ -93,7 +77,8 @@ def main():
     arguments.folder.mkdir(parents=True, exist_ok=True)
     for kind in arguments.kinds:
         for seed in arguments.seeds:
-            write(arguments.folder / f"{kind}-{seed}.pcd", *frame(kind, seed, arguments.sensor))
+            scene, colours = frame(kind, seed, arguments.sensor)
+            point_clouds.write_scene(arguments.folder / f"{scene.name}.pcd", scene, colours)
     return 0
 
 

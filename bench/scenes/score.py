@@ -1,22 +1,25 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Scores ph-segment on generated frames, by kind of scene.
+"""Scores ph-segment, and other programs, on generated frames, by kind of scene.
 
-    score.py build/release/apps/segment/ph-segment --seeds 0-19
+    score.py build/release --seeds 0-19
 
-prints, for each kind, the mean F measure of objects and its standard error, each frame as the mean
-over five voxel edges (4.7 to 5.3 mm), and the mean number of strays: segments that lie for the
-greater part on no object. A second program or other options after --against are run on the same
-frames; then the paired difference is printed as well. Words after -- go to the program. --least
-KIND=F ends with exit 1 if a mean is smaller. Needs numpy.
+prints, for each kind, the mean F measure of objects with its standard error, and the mean number of
+strays: segments of which less than half lies on objects. The score of a frame is the mean over five
+voxel edges (4.7 to 5.3 mm).
+
+A program for --peer is NAME = COMMAND, as for segmentation_scores.py. The differences from it are
+paired by frames. If {edge} is in the command, it runs with each voxel edge: {edge} stands for
+nothing (the default, 5 mm) or for `--voxel E`. {range} stands for the option that a kind needs of
+ph-segment: --max-range 6 in rooms, which are larger than its default of 2 m. Needs numpy.
 """
+
 import argparse
 import concurrent.futures
 import csv
 import os
 import pathlib
 import shlex
-import subprocess
 import sys
 import tempfile
 
@@ -25,58 +28,62 @@ import numpy
 sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "segmentation"))
 import arrangements
 import frames
+import point_clouds
 import segmentation_metrics
+from segmentation_programs import OURS, Program, peer
 
-# Options without which the program leaves out what the kind is about.
-OPTIONS = {"room": ["--max-range", "6"]}
-EDGES = ("", "0.0047", "0.00485", "0.00515", "0.0053")  # metres; "": the default, 5 mm
+EDGES = ("", "--voxel 0.0047", "--voxel 0.00485", "--voxel 0.00515", "--voxel 0.0053")
+RANGE = {"room": "--max-range 6"}
 
 
-def labels_of(command, path, edge, output):
-    """The labels that the program gives to a frame."""
-    words = [*command, str(path), "--quiet", "--threads", "1", "--labels", str(output)]
-    run = subprocess.run(
-        words + (["--voxel", edge] if edge else []), capture_output=True, text=True, check=False
-    )
-    if run.returncode != 0:
-        raise RuntimeError(f"{shlex.join(words)}: exit {run.returncode}: {run.stderr[-400:]}")
-    labels = numpy.load(output)
-    output.unlink()
-    return labels
+def variants(program, kind, edges):
+    """The programs to run on a frame of a kind, one per voxel edge if the program takes it."""
+    text = program.text.replace("{range}", RANGE.get(kind, ""))
+    edges = edges if "{edge}" in text else ("",)
+    return [Program(program.name, text.replace("{edge}", edge)) for edge in edges]
 
 
 def strays(truth, labels):
-    """The number of segments of which less than half of the pixels with truth is on objects."""
+    """The number of segments of which less than half of the points with truth is on objects."""
     known = (truth > 0) & (labels > 0)
     on_all = numpy.bincount(labels[known])
-    on_objects = numpy.bincount(labels[known & (truth >= 10)], minlength=len(on_all))
+    is_object = truth >= segmentation_metrics.FIRST_OBJECT
+    on_objects = numpy.bincount(labels[known & is_object], minlength=len(on_all))
     return int(((on_all > 0) & (2 * on_objects < on_all)).sum())
 
 
-def score(task):
-    """Kind, seed, and for each command the mean F and the mean number of strays of one frame."""
-    kind, seed, commands, edges, keep = task
-    points, colours, truth = frames.frame(kind, seed)
+def score(kind, seed, programs, edges, keep):
+    """For each program, the mean F and the mean number of strays of one frame."""
+    scene, colours = frames.frame(kind, seed)
+    results = []
     with tempfile.TemporaryDirectory() as folder:
-        path = pathlib.Path(keep or folder) / f"{kind}-{seed}.pcd"
-        frames.write(path, points, colours, truth)
-        results = []
-        for command in commands:
-            f, stray = [], []
-            for edge in edges:
-                words = [*command, *OPTIONS.get(kind, ())]
-                labels = labels_of(words, path, edge, pathlib.Path(folder) / "labels.npy")
-                labels = labels.reshape(truth.shape).astype(numpy.int64)
-                f.append(segmentation_metrics.score(truth.astype(int), labels, False, False).f)
-                stray.append(strays(truth, labels))
-            results.append((float(numpy.mean(f)), float(numpy.mean(stray))))
-    return kind, seed, results
+        path = pathlib.Path(keep or folder) / f"{scene.name}.pcd"
+        point_clouds.write_scene(path, scene, colours)
+        for program in programs:
+            found = []
+            for variant in variants(program, kind, edges):
+                labels = variant.labels(path, pathlib.Path(folder) / "labels")
+                scores = segmentation_metrics.score(scene.truth, labels, False, False)
+                found.append((scores.f, strays(scene.truth, labels)))
+            results.append(numpy.mean(found, axis=0))
+    return results
 
 
-def summary(values):
-    """Mean and standard error."""
+def mean(values):
+    """The mean and its standard error, as text."""
     error = numpy.std(values, ddof=1) / len(values) ** 0.5 if len(values) > 1 else 0.0
     return f"{numpy.mean(values):.4f} ± {error:.4f}"
+
+
+def line(kind, programs, of_kind):
+    """The results of a kind as text. @param of_kind an array of frames x programs x (F, strays)."""
+    parts = []
+    for k, program in enumerate(programs):
+        text = f"F {mean(of_kind[:, k, 0])}, strays {of_kind[:, k, 1].mean():.2f}"
+        if k > 0:
+            text = f"{program.name}: {text}, difference {mean(of_kind[:, 0, 0] - of_kind[:, k, 0])}"
+        parts.append(text)
+    return f"{kind:9} " + " | ".join(parts)
 
 
 def least(text):
@@ -85,59 +92,57 @@ def least(text):
 
 
 def parse():
-    words = sys.argv[1:]
-    split = words.index("--") if "--" in words else len(words)
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
-    parser.add_argument("program", help="ph-segment")
+    parser.add_argument("build", type=pathlib.Path, help="build folder, with ph-segment")
     parser.add_argument("--seeds", type=frames.seeds, default=range(4), metavar="A-B")
     parser.add_argument("--kinds", type=frames.kinds, default=list(arrangements.KINDS))
+    parser.add_argument("--ours", default="", metavar="OPTIONS", help="options of ph-segment")
     parser.add_argument(
-        "--against", type=shlex.split, metavar="COMMAND", help="a program and options to compare"
+        "--peer", type=peer, action="append", default=[], help="NAME = COMMAND, repeatable"
     )
-    parser.add_argument("--least", type=least, nargs="*", default=[], metavar="KIND=F")
+    parser.add_argument(
+        "--least",
+        type=least,
+        nargs="*",
+        default=[],
+        metavar="KIND=F",
+        help="end with exit 1 if the mean of a kind is smaller",
+    )
     parser.add_argument("--one-edge", action="store_true", help="only the default voxel edge")
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
-    parser.add_argument("--csv", type=pathlib.Path, help="write the scores of all frames")
+    parser.add_argument("--csv", type=pathlib.Path, help="also write the scores of all frames")
     parser.add_argument("--keep", type=pathlib.Path, help="keep the frames in this folder")
-    arguments = parser.parse_args(words[:split])
-    arguments.options = words[split + 1 :]
-    return arguments
+    return parser.parse_args()
 
 
 def main():
     arguments = parse()
-    commands = [[arguments.program, *arguments.options]]
-    if arguments.against:
-        commands.append(arguments.against)
+    ph_segment = shlex.quote(str(arguments.build.resolve() / "apps/segment/ph-segment"))
+    ours = f"{ph_segment} {{input}} --quiet --threads 1 --labels {{output}}.npy {{range}} {{edge}}"
+    programs = [Program(OURS, f"{ours} {arguments.ours}"), *arguments.peer]
+    edges = EDGES[:1] if arguments.one_edge else EDGES
     if arguments.keep:
         arguments.keep.mkdir(parents=True, exist_ok=True)
-    edges = EDGES[:1] if arguments.one_edge else EDGES
-    tasks = [
-        (kind, seed, commands, edges, arguments.keep)
-        for kind in arguments.kinds
-        for seed in arguments.seeds
-    ]
+    tasks = [(kind, seed) for kind in arguments.kinds for seed in arguments.seeds]
     with concurrent.futures.ProcessPoolExecutor(arguments.jobs) as pool:
-        rows = list(pool.map(score, tasks))
+        runs = [pool.submit(score, *task, programs, edges, arguments.keep) for task in tasks]
+        results = numpy.array([run.result() for run in runs])
     if arguments.csv:
-        with arguments.csv.open("w", newline="") as file:
-            csv.writer(file).writerows(
-                [("kind", "seed", *(["f", "strays"] * len(commands)))]
-                + [(kind, seed, *sum(results, ())) for kind, seed, results in rows]
-            )
+        with arguments.csv.open("w", newline="", encoding="utf-8") as file:
+            writer = csv.writer(file)
+            writer.writerow(["kind", "seed", "program", "f", "strays"])
+            for (kind, seed), of_frame in zip(tasks, results):
+                for program, (f, stray) in zip(programs, of_frame):
+                    writer.writerow([kind, seed, program.name, f"{f:.4f}", f"{stray:g}"])
     failed = False
     for kind in arguments.kinds:
-        of_kind = numpy.array([results for k, _, results in rows if k == kind])
-        line = f"{kind:9} F {summary(of_kind[:, 0, 0])}, strays {of_kind[:, 0, 1].mean():.2f}"
-        if arguments.against:
-            line += f" | {summary(of_kind[:, 1, 0])}, strays {of_kind[:, 1, 1].mean():.2f}"
-            line += f" | difference {summary(of_kind[:, 0, 0] - of_kind[:, 1, 0])}"
+        of_kind = results[[k == kind for k, _ in tasks]]
         wanted = dict(arguments.least).get(kind, 0.0)
-        if of_kind[:, 0, 0].mean() < wanted:
-            line, failed = f"{line} < {wanted}", True
-        print(line)
+        below = of_kind[:, 0, 0].mean() < wanted
+        failed |= below
+        print(line(kind, programs, of_kind) + (f", expected {wanted} or more" if below else ""))
     return 1 if failed else 0
 
 

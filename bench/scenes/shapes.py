@@ -3,6 +3,7 @@
 
 All lengths are in metres. A solid in its own frame stands on the plane z = 0 with its axis on the
 z axis; `placed` turns it and moves it."""
+
 import dataclasses
 import math
 
@@ -56,8 +57,8 @@ class Solid:
         return grid @ self.turn.T + self.shift
 
     def hits(self, origins, directions):
-        """For each ray: the least t > 0 at which origin + t * direction is on the solid (infinity if
-        there is none) and the normal there, in the world."""
+        """For each ray, the least t > 0 at which origin + t * direction is on the solid, and the
+        normal there, in the world. If the ray misses the solid, t is infinite."""
         o = (origins - self.shift) @ self.turn
         d = directions @ self.turn
         t, normals = self.own_hits(numpy.broadcast_to(o, d.shape), d)

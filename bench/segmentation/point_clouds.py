@@ -124,15 +124,20 @@ def read_scene(path):
     )
 
 
-def write_scene(path, scene):
-    rows = numpy.empty(len(scene.truth), [("xyz", "<f4", 3), ("label", "<u4")])
+def write_scene(path, scene, colours=None):
+    """Writes a frame as a PCD file. @param colours red, green and blue of each point, as bytes."""
+    colour = [("rgb", "<u4")] if colours is not None else []
+    rows = numpy.empty(len(scene.truth), [("xyz", "<f4", 3), ("label", "<u4"), *colour])
     rows["xyz"], rows["label"] = scene.points, scene.truth
+    if colours is not None:
+        rows["rgb"] = colours.astype(numpy.uint32) @ numpy.array([1 << 16, 1 << 8, 1], numpy.uint32)
+    fields = 4 + len(colour)
     header = (
         "VERSION 0.7",
-        "FIELDS x y z label",
-        "SIZE 4 4 4 4",
-        "TYPE F F F U",
-        "COUNT 1 1 1 1",
+        "FIELDS x y z label" + " rgb" * len(colour),
+        "SIZE" + " 4" * fields,
+        "TYPE F F F U" + " U" * len(colour),
+        "COUNT" + " 1" * fields,
         f"WIDTH {scene.width}",
         f"HEIGHT {scene.height}",
         "VIEWPOINT 0 0 0 1 0 0 0",

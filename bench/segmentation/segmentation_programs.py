@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Runs programs that segment a single frame: ph-segment and its peers, through one interface."""
+import argparse
 import csv
 import json
 import pathlib
@@ -89,6 +90,14 @@ class Program:
             for key, value in last.items()
             if key.startswith("t_") and key != "t_total" and value
         }
+
+
+def peer(text):
+    """The program of an argument NAME = COMMAND."""
+    name, equals, command = text.partition(" = ")
+    if not equals or "{input}" not in command and "{name}" not in command:
+        raise argparse.ArgumentTypeError(f"{text!r}: expected NAME = COMMAND with {{input}} in it")
+    return Program(name.strip(), command.strip())
 
 
 def ours(build, options=""):

@@ -39,20 +39,13 @@ import segmentation_curves
 import segmentation_tables
 from compare_rips import processor, save
 from segmentation_benchmark import TRUTHS, Benchmark
-from segmentation_programs import Program
+from segmentation_programs import peer
 
 # The constants of ph-segment that have an option, with the values to try; the default is the first.
 GRID = (
     "min-persistence=1,0.7,1.4 min-part=200,100,400 voxel=0.005,0.004,0.006 "
     "plane-distance=0.005,0.006"
 )
-
-
-def peer(text):
-    name, equals, command = text.partition(" = ")
-    if not equals or "{input}" not in command and "{name}" not in command:
-        raise argparse.ArgumentTypeError(f"{text!r}: expected NAME = COMMAND with {{input}} in it")
-    return Program(name.strip(), command.strip())
 
 
 def perturbation(text):

@@ -19,8 +19,10 @@ sys.path.insert(0, str(SCENES))
 import arrangements  # noqa: E402
 import cameras  # noqa: E402
 import frames  # noqa: E402
+import placing  # noqa: E402
 import shapes  # noqa: E402
 import score  # noqa: E402
+import point_clouds  # noqa: E402
 
 VIEW = cameras.View.towards(cameras.SENSORS["structured-light"], (0.3, -0.8, 0.7), (0, 0, 0.05))
 
@@ -53,47 +55,54 @@ class Shapes(unittest.TestCase):
         self.assertLess(away.max(), 0.05 + 1e-9)
 
     def test_what_is_let_down_touches_and_does_not_cut(self):
-        scene = arrangements.Scene("test")
+        scene, can = placing.Scene(), (shapes.cylinder(0.05, 0.1),)
         scene.add("support", shapes.Box(size=(1, 1, 0.1)).placed(shift=(0, 0, -0.1)))
-        below, = arrangements.rest(scene, (shapes.Box(size=(0.2, 0.2, 0.1)),), 0, 0)
-        scene.add("object", below)
-        above, = arrangements.rest(scene, (shapes.cylinder(0.05, 0.1),), 0.05, 0)
-        self.assertAlmostEqual(above.corners()[:, 2].min(), 0.1)
-        self.assertIsNone(arrangements.rest(scene, (shapes.cylinder(0.05, 0.1),), 0.12, 0))  # it tips
+        below = placing.rest(scene, (shapes.Box(size=(0.2, 0.2, 0.1)),), 0, 0)
+        scene.add("object", *below)
+        for x, hangs in ((0.03, False), (0.08, True)):
+            above = placing.rest(scene, can, x, 0)
+            self.assertAlmostEqual(above[0].corners()[:, 2].min(), 0.1)
+            self.assertEqual(placing.hangs_over(above, below), hangs)
+        self.assertIsNone(placing.rest(scene, can, 0.12, 0))  # it tips
 
 
 class Frames(unittest.TestCase):
     def test_each_kind(self):
         for kind in arrangements.KINDS:
             with self.subTest(kind):
-                points, colours, labels = frames.frame(kind, 3)
-                there = numpy.isfinite(points).all(axis=2)
-                self.assertEqual(colours.shape, points.shape)
-                self.assertFalse((labels[~there] > 0).any())
-                self.assertGreaterEqual(len(numpy.unique(labels[labels >= 10])), 1)
-                self.assertEqual((labels == 1).any(), kind != "loose")
+                scene, colours = frames.frame(kind, 3)
+                self.assertEqual(len(scene.truth), scene.width * scene.height)
+                self.assertEqual(colours.shape, scene.points.shape)
+                self.assertFalse((scene.truth[~numpy.isfinite(scene.points).all(axis=1)] > 0).any())
+                self.assertTrue((scene.truth >= 20).any())
+                self.assertEqual((scene.truth == 1).any(), kind != "loose")
 
-    def test_the_same_seed_gives_the_same_bytes(self):
+    def test_the_same_seed_gives_the_same_bytes_which_read_back(self):
         with tempfile.TemporaryDirectory() as folder:
-            for name in "ab":
-                frames.write(pathlib.Path(folder, name), *frames.frame("stack", 7))
-            first, second = (pathlib.Path(folder, name).read_bytes() for name in "ab")
-        self.assertEqual(first, second)
-        self.assertFalse(numpy.array_equal(frames.frame("stack", 7)[2], frames.frame("stack", 8)[2]))
+            paths = [pathlib.Path(folder, name) for name in ("a.pcd", "b.pcd")]
+            for path in paths:
+                scene, colours = frames.frame("stack", 7)
+                point_clouds.write_scene(path, scene, colours)
+            self.assertEqual(*(path.read_bytes() for path in paths))
+            back = point_clouds.read_scene(paths[0])
+        numpy.testing.assert_array_equal(back.points, scene.points)
+        numpy.testing.assert_array_equal(back.truth, scene.truth)
+        self.assertFalse(numpy.array_equal(frames.frame("stack", 8)[0].truth, scene.truth))
 
 
 class Scores(unittest.TestCase):
     def test_strays(self):
-        truth = numpy.array([[1, 1, 1, 10, 10, 0, 0]])
-        self.assertEqual(score.strays(truth, numpy.array([[5, 5, 0, 6, 6, 7, 7]])), 1)
-        self.assertEqual(score.strays(truth, numpy.array([[5, 0, 0, 5, 5, 0, 0]])), 0)
+        truth = numpy.array([1, 1, 1, 20, 20, 0, 0])
+        self.assertEqual(score.strays(truth, numpy.array([5, 5, 0, 6, 6, 7, 7])), 1)
+        self.assertEqual(score.strays(truth, numpy.array([5, 0, 0, 5, 5, 0, 0])), 0)
 
     def test_things_on_a_table(self):
-        command = [sys.executable, "-B", SCENES / "score.py", BUILD / "apps/segment/ph-segment", "--kinds", "table",
-                   "--seeds", "1-3", "--one-edge"]
+        command = [sys.executable, "-B", SCENES / "score.py", BUILD, "--kinds", "table", "--seeds", "1-3",
+                   "--one-edge", "--peer", f"itself = {BUILD}/apps/segment/ph-segment {{input}} --labels {{output}}.npy"]
         run = subprocess.run([*command, "--least", "table=0.9"], capture_output=True, text=True, timeout=280)
         self.assertEqual(run.returncode, 0, run.stdout + run.stderr)
         self.assertIn("table     F 0.9", run.stdout)
+        self.assertIn("difference 0.0000 ± 0.0000", run.stdout)
         run = subprocess.run([*command, "--least", "table=1.1"], capture_output=True, text=True, timeout=280)
         self.assertEqual(run.returncode, 1, run.stdout + run.stderr)
 
