@@ -281,8 +281,8 @@ TEST(ReadOff, ReadsMeshes) {
         "COFFE\n1 0 0\n0 0 0\n", "OFF\n1 1 0\n0 0 0\n4000000000 0\n", "OFF\n0 0 0\n"}) {
     bad_data([&] { read_off(Input::view(bad, "m.off")); });
   }
-  const auto says = [](const char* text) {
-    return bad_data([&] { read_off(Input::view(text, "m.off")); });
+  const auto says = [](const char* content) {
+    return bad_data([&] { read_off(Input::view(content, "m.off")); });
   };
   EXPECT_TRUE(
       contains(says("OFF\n"), "found the end of the file, expected the numbers of vertices"));
