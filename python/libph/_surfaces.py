@@ -89,10 +89,10 @@ class Surface(NamedTuple):
 def alpha_shape(X: Any, value: float, *, wrap: bool = False, squared: bool | None = None,
                 weights: ArrayLike | None = None, nan: str = "error",
                 **run: Unpack[RunOptions]) -> Surface:
-    """The surface of the alpha complex of points at a value: it encloses the union of balls of that
-    radius.
+    """The surface of the alpha complex of points at a value.
 
-    For points of the plane, it consists of all triangles up to the value.
+    The complex has the shape of the union of the balls of that radius: the two are homotopy
+    equivalent. For points of the plane, the surface consists of all triangles up to the value.
 
     Parameters
     ----------
@@ -102,8 +102,8 @@ def alpha_shape(X: Any, value: float, *, wrap: bool = False, squared: bool | Non
         The radius of the balls, or its square if `squared` is True.
     wrap : bool
         If True, use the wrap complex instead: the critical simplices up to the value with
-        everything below them in the gradient. It has the same holes without frayed edges
-        [Edelsbrunner 2003].
+        everything below them in the gradient. The alpha complex collapses onto the wrap complex;
+        both have the same holes [Edelsbrunner 2003].
     squared, weights, nan
         As in `alpha`.
     **run

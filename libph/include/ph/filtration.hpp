@@ -18,8 +18,11 @@ using Index = std::int64_t;
 /// The meaning of the numbers that name a cell to the user who supplied the input.
 enum class CellKind {
   vertices,  ///< the vertices of a simplex, ascending: vertex i is input point i
-  grid,      ///< doubled grid coordinates, one per axis: 2i is voxel i, 2i+1 spans voxels i and i+1
-  row,       ///< the row of an explicit boundary matrix (one number)
+  /// Doubled grid coordinates, one per axis. If voxels are vertices (V), 2i is voxel i, and 2i+1
+  /// spans voxels i and i+1. If voxels are top cubes (T), 2i+1 is voxel i, and 2i is the face
+  /// before it.
+  grid,
+  row,  ///< the row of an explicit boundary matrix (one number)
 };
 
 template <>
@@ -76,7 +79,7 @@ template <class F>
 concept CofacetFiltration =
     Filtration<F> && requires(const F& f, int dim, const typename F::Cell& cell) {
       /// The first part of the order, shared by all dimensions: a face's key is at most its
-      /// coface's, and if they are equal, so are the values.
+      /// coface's key; equal keys mean equal values.
       { f.key(cell) } -> std::unsigned_integral;
       /// Calls `visit(Cell cofacet, int incidence)`, which returns false to stop.
       f.for_each_cofacet(dim, cell, [](const typename F::Cell&, int) { return true; });

@@ -20,16 +20,17 @@ struct Standing {
 
 /// Numbers the segments of a stream of frames: an object keeps its number from frame to frame.
 ///
-/// A segment takes the number of the object with which it shares the most places, if the shared
-/// places are more than a quarter of the smaller of the two. Pairs with the largest share of their
-/// union come first, and no object is taken twice. All other segments get new numbers, 1, 2, …. An
-/// object that no segment took keeps the places that no segment covers, and keeps its number for
-/// some frames. Walls and boards have numbers as well. The role of an object, and what the object
-/// stands on, change only when three frames in a row agree: a wall that is a segment in one frame
-/// is still a wall. O(n log n) per frame; the tracker stores one frame.
+/// A segment takes the number of the object with which it overlaps most. The overlap is the number
+/// of shared places, divided by the number of places in the union of the two. The shared places
+/// must be more than a quarter of the smaller of the two. Pairs with the largest overlap come
+/// first, and no object is taken twice. All other segments get new numbers, 1, 2, …. An object that
+/// no segment took keeps the places that no segment covers, and keeps its number for some frames.
+/// Walls and boards have numbers as well. The role of an object, and what the object stands on,
+/// change only when three frames in a row agree: a wall that is a segment in one frame is still a
+/// wall. O(n log n) per frame; the tracker stores one frame.
 class LabelTracker {
  public:
-  /// @param patience how many frames an unseen object is remembered, >= 0.
+  /// @param patience the number of frames for which an unseen object is remembered, >= 0.
   /// @param cell edge, in metres, of the cubes that are compared in unorganised clouds; above 0.
   /// @throws Error (usage) on other values.
   explicit LabelTracker(int patience = 5, double cell = 0.01);
@@ -61,7 +62,7 @@ class LabelTracker {
     int unseen = 0;      // number of frames in a row without it
     bool is_new = true;  // true if it is first seen in this frame
     Standing is = {};    // `segment` holds the number of an object here
-    Standing said = {};  // what the last frames showed, if it differs from `is`
+    Standing said = {};  // the standing in the last frames, if it differs from `is`
     int times = 0;       // number of frames in a row that showed `said`
   };
   std::vector<Place> cubes(const SceneTree& scene, const SceneCut& cut) const;

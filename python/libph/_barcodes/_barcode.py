@@ -318,12 +318,12 @@ class Barcode(Cells, Summaries, Sequence[Bar]):
             "diagram": points birth, death. "barcode": lines from birth to death. "betti": Betti
             numbers over the filtration value.
         ax : Axes, optional
-            The axes to draw on. Default: those of a new figure.
+            The axes to draw on. Default: the axes of a new figure.
         dim : int or iterable of int, optional
             Show only these dimensions. Default: all.
         noise : float, optional
             For a diagram: draws a grey band along the diagonal that covers bars of this length and
-            shorter; for points use ``4 * ph.confidence_radius(X)``.
+            shorter. For bars of `rips`, use ``4 * ph.confidence_radius(X)``.
         **style
             Passed on to the drawing function: `scatter`, `hlines` or `step`.
 

@@ -23,7 +23,8 @@ concept JoinablePart = std::movable<P> &&
   part.join(std::move(part), run);
 };
 
-/// Joins the parts of all ranks along a binary tree, in log2 steps. Every rank must call it.
+/// Joins the parts of all ranks along a binary tree, in log2(parts) steps, rounded up. Every rank
+/// must call it.
 /// @param own part `rank` of the whole, or nothing if there are more ranks than parts; the ranks
 ///        without a part have the highest numbers.
 /// @return the whole on rank 0, nothing on the others.
@@ -32,7 +33,8 @@ template <JoinablePart Part>
 std::optional<Part> join_ranks(std::optional<Part> own, Post& post, const RunContext& context) {
   if (!own) return std::nullopt;
   const int rank = post.rank(), parts = own->parts();
-  // Before a step of this width, a rank has that many parts, starting with its own.
+  // Before a step of this width, each remaining rank has at most that many parts, starting with its
+  // own.
   for (int width = 1; width < parts; width *= 2) {
     if (rank % (2 * width) == width) {
       post.send(rank - width, own->bytes());
@@ -46,8 +48,9 @@ std::optional<Part> join_ranks(std::optional<Part> own, Post& post, const RunCon
   return own;
 }
 
-/// Computes the loops of all ranks in rounds: each rank works until it has nothing to do, then all
-/// ranks exchange messages, until no rank has any messages left. Every rank must call it.
+/// Computes the loops of all ranks in rounds. In a round, each rank works until it has nothing to
+/// do, and then all ranks exchange messages. The rounds end when no rank has messages left. Every
+/// rank must call it.
 /// @param own part `rank`, or nothing if there are more ranks than parts. @param parts the number
 ///        of parts of the image. @param whole the result of join_ranks on rank 0; null on the
 ///        others.
