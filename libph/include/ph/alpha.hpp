@@ -74,28 +74,28 @@ inline constexpr std::array names_of<AlphaOptions::Unit>{
 ///
 /// Any finite points are allowed. Coplanar and collinear points have the triangulation of their
 /// affine hull. An edge of value 0 joins a copy to the first point at the same place; a weighted
-/// copy is hidden instead. Two things are decided exactly: which simplices there are, and which
-/// values are equal. Values themselves have rounding errors in the last few places, and no face has
-/// a larger value than a coface. (Radii below 1e-150 or beyond 1e150 times the largest coordinate
-/// are less precise.) Cospherical points have several triangulations; the choice depends on their
+/// copy is hidden instead. libph decides exactly which simplices exist and which values are equal.
+/// The values themselves have rounding errors in the last few places, and no face has a larger
+/// value than a coface. (Radii below 1e-150 or beyond 1e150 times the largest coordinate are less
+/// precise.) Cospherical points have several triangulations; the choice depends on their
 /// coordinates alone, not on their order.
 ///
 /// Kinds of value other than `alpha` require points without weights. Engines for any filtration
 /// then compute the bars simplex by simplex, which takes several times as long.
 ///
-/// In a periodic space the balls grow around a torus, or around a cylinder if not all axes close
-/// up. Any number of points is allowed, even one. A cell is still named by its points. One point
-/// may occur several times in a cell (the edge from a point to its own periodic image is [v, v]),
-/// and two cells may have the same points. Along axes that close up, coordinates and lengths are
-/// rounded to multiples of a power of two, which is at most 2^-50 of the diagonal of the box.
-/// Translates are therefore equal to the last bit. Numbers that already are such multiples do not
-/// change. Points that are the same modulo the lengths are copies. On a torus the complex ends with
-/// the Betti numbers 1, 3, 3, 1; in the plane, 1, 2, 1.
+/// In a periodic space the balls grow in a torus, or in a cylinder if not all axes close up. Any
+/// number of points is allowed, even one. A cell is still named by its points. One point may occur
+/// several times in a cell (the edge from a point to its own periodic image is [v, v]), and two
+/// cells may have the same points. Along axes that close up, coordinates and lengths are rounded to
+/// multiples of a power of two, which is at most 2^-50 of the diagonal of the box. Translates are
+/// therefore equal to the last bit. Numbers that already are such multiples do not change. Points
+/// that are the same modulo the lengths are copies. On a torus the complex ends with the Betti
+/// numbers 1, 3, 3, 1; in the plane, 1, 2, 1.
 ///
 /// The filtration holds the triangulation: about 110 bytes per tetrahedron. Engines for any
-/// filtration need the single simplices; these are made once, by `prepare` or when a cell is first
-/// asked for. The order is (value, dimension, vertices along a space-filling curve, last vertex
-/// first).
+/// filtration need the individual simplices, which are made once: by `prepare`, or when a cell is
+/// first asked for. The order is (value, dimension, vertices along a space-filling curve, last
+/// vertex first).
 class Alpha {
  public:
   using Cell = ExplicitComplex::Cell;
@@ -120,8 +120,8 @@ class Alpha {
   std::span<const std::uint32_t> hidden() const;
   /// Copies of other points, ascending; empty if points are weighted.
   std::vector<Index> copies() const;
-  /// Number of simplices by dimension, including those beyond the threshold and the edges that join
-  /// copies.
+  /// Number of simplices by dimension, including simplices beyond the threshold and the edges that
+  /// join copies.
   std::vector<std::size_t> simplex_counts() const;
 
   /// Makes every simplex, unless this was done before. The simplices take about 5 kB per point of
@@ -195,14 +195,14 @@ struct SurfaceMesh {
 /// of the complex is ignored. It is a polyhedron, which has the shape of the union of the balls.
 /// For points in a plane, the result has all triangles up to the value, counterclockwise if the
 /// points are in R². O(triangles · log). @throws Error (usage) on NaN, on values other than alpha,
-/// and in a periodic space: a triangle across a face of the box has no points for its corners.
+/// and in a periodic space, because there a corner of a triangle may be a periodic image of a
+/// point.
 SurfaceMesh alpha_shape(const Alpha& alpha, double value);
 
 /// The surface of the wrap complex (Edelsbrunner, Surface reconstruction by wrapping finite sets in
 /// space, 2003): the critical simplices up to a value, and all simplices below them in the order of
-/// the gradient. It is the part of the alpha complex without frayed edges, and is homotopy
-/// equivalent to the alpha complex. O(tetrahedra). @throws Error (usage) as alpha_shape; Error
-/// (resource, cancelled).
+/// the gradient. The alpha complex collapses onto the wrap complex; the two are therefore homotopy
+/// equivalent. O(tetrahedra). @throws Error (usage) as alpha_shape; Error (resource, cancelled).
 SurfaceMesh wrap(const Alpha& alpha, double value, const RunContext& context = default_context());
 
 }  // namespace ph

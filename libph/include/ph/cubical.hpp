@@ -90,7 +90,8 @@ class Cubical {
   CubicalImage cubical_image() const { return grid_; }
   /// Bytes taken by the voxels.
   std::size_t voxel_bytes() const { return voxels_.bytes(); }
-  /// Number of vertices of the grid, including those that never enter: voxels (V) or corners (T).
+  /// Number of vertices of the grid, including vertices that never enter: voxels (V) or corners
+  /// (T).
   std::size_t vertex_count() const;
   /// The number of a vertex, where all vertices are counted in C order.
   std::size_t vertex_number(const Cell& vertex) const;

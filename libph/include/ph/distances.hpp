@@ -141,7 +141,8 @@ WassersteinMatching wasserstein_matching(std::span<const Bar> a, std::span<const
 /// This distance is equivalent to wasserstein_distance of order 1, but not equal: it is at most 2
 /// √2 times as large, whatever the number of directions. exp(-distance) is a positive definite
 /// kernel. Source: Carrière, Cuturi, Oudot, Sliced Wasserstein kernel for persistence diagrams,
-/// 2017. O(directions · n log n). Threads share the directions; the result does not depend on them.
+/// 2017. O(directions · n log n). Threads share the directions; the result does not depend on the
+/// number of threads.
 /// @param directions at least 1.
 /// @throws Error (usage) on fewer directions; otherwise as bottleneck_distance.
 double sliced_wasserstein_distance(std::span<const Bar> a, std::span<const Bar> b,
@@ -187,19 +188,19 @@ struct Barycentre {
 /// A barycentre (Fréchet mean) of persistence diagrams: a local minimum of the mean square of the
 /// Wasserstein distances (order 2, Euclidean ground norm) from a diagram to the given ones. The
 /// search begins at their medoid: the diagram with the least sum of squared distances, which are
-/// computed to 1 %; among equals, the first one. It then alternates two steps: each diagram is
-/// matched with the current one, and each bar of the current one moves to the mean of its partners,
-/// where a partner on the diagonal counts as the point nearest to the mean of the others. A bar
-/// without a partner in the current diagram becomes a new bar, moved towards the diagonal by all
-/// diagrams that lack it; a bar with all its partners on the diagonal is removed. The result may
-/// therefore have bars that are 1/N as long as a bar of one of the N diagrams.
+/// computed to within 1 %; among equals, the first one. It then alternates two steps: each diagram
+/// is matched with the current one, and each bar of the current one moves to the mean of its
+/// partners, where a partner on the diagonal counts as the point nearest to the mean of the others.
+/// A bar without a partner in the current diagram becomes a new bar, moved towards the diagonal by
+/// all diagrams that lack it; a bar with all its partners on the diagonal is removed. The result
+/// may therefore have bars that are 1/N as long as a bar of one of the N diagrams.
 ///
 /// Infinite bars are averaged in the order of their finite ends. Bars of length 0 do not count.
 /// Sources: Turner, Mileyko, Mukherjee, Harer, Fréchet means for distributions of persistence
 /// diagrams, 2014 (alternation; it lowers the mean square until it ends); Vidal, Budin, Tierny,
 /// Progressive Wasserstein barycenters of persistence diagrams, 2020. The search takes about 1 to
 /// 15 rounds of N matchings each, after N²/2 distances. Threads share the diagrams; the result does
-/// not depend on them.
+/// not depend on the number of threads.
 /// @throws Error (usage) on no diagram or options out of range; Error (bad_data) on a NaN, a death
 ///         before its birth or numbers of infinite bars that differ; Error (resource, cancelled).
 Barycentre barycentre(std::span<const std::span<const Bar>> diagrams,

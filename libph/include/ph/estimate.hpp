@@ -40,9 +40,9 @@ struct Fit {
   double bytes_low = 0, bytes_high = 0;  ///< as in Estimate
 };
 /// Looks for changes that make a computation fit the limit of `context` after it ran out of memory.
-/// It checks each change with an estimate; for a Rips filtration it also makes the form of the
-/// filtration within the limit. It tries another engine, no representatives and lower dimensions;
-/// for a Rips filtration it then tries a subsample, a lower threshold and an edge collapse.
+/// It checks each change with an estimate; for a Rips filtration it also makes the planned form
+/// within the memory limit. It tries another engine, no representatives and lower dimensions; for a
+/// Rips filtration it then tries a subsample, a lower threshold and an edge collapse.
 /// @return at most three changes; the search stops after a few CPU seconds.
 /// @throws Error (cancelled) on a stop request.
 std::vector<Fit> what_fits(const AnyComplex& complex, const Options& options,

@@ -41,9 +41,9 @@ StepFunction euler_curve(std::span<const Bar> bars);
 /// a cell may lie, the voxel is compared with a neighbour, many voxels of a row at a time. Three
 /// layers along the first axis are in memory. Bytes and 16-bit numbers go into one histogram; for
 /// floats, the voxels at which the curve may change are sorted. Threads share the layers; the
-/// result does not depend on them. Source: Heiss, Wagner, Streaming algorithm for Euler
-/// characteristic curves of multidimensional images, 2017 (a voxel counts the cells that enter with
-/// it). O(voxels · 3^d) time and O(changes) memory.
+/// result does not depend on the number of threads. Source: Heiss, Wagner, Streaming algorithm for
+/// Euler characteristic curves of multidimensional images, 2017 (a voxel counts the cells that
+/// enter with it). O(voxels · 3^d) time and O(changes) memory.
 /// @throws Error (resource, cancelled).
 StepFunction euler_curve(const Cubical& image, const RunContext& context = default_context());
 

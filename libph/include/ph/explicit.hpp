@@ -84,7 +84,7 @@ class ExplicitComplex {
   bool has_incidences() const { return has_incidences_; }
   /// Number of cells that enter.
   std::size_t size() const { return input_position_.size(); }
-  /// Number of vertices of the input, including those that never enter.
+  /// Number of vertices of the input, including vertices that never enter.
   std::size_t vertex_count() const { return vertices_.size(); }
   /// The place of a vertex among all vertices, in the order of the input.
   std::size_t vertex_number(Cell vertex) const;

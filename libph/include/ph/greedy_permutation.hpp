@@ -23,8 +23,8 @@ struct GreedyLimits {
 /// it; among equals, the point with the smallest number.
 struct GreedyPermutation {
   std::vector<std::uint32_t> points;
-  /// For points[k], the distance to the nearest of points[0 … k); infinite for k = 0. It never
-  /// increases.
+  /// For points[k], the distance to the nearest of points[0 … k); infinite for k = 0. The radii
+  /// never increase.
   std::vector<double> radii;
   /// Each point of the entire set is at most this far from one of `points`.
   double covering_radius = 0;

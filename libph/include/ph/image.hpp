@@ -188,7 +188,7 @@ class Voxels {
 };
 
 /// A dense array of any dimension: `extents[k]` voxels along axis k, the last axis fastest (C
-/// order). The axes are those of the input file.
+/// order). The axes are the axes of the input file.
 struct Image {
   std::vector<Index> extents;
   Voxels values;

@@ -38,8 +38,8 @@ struct Merge {
 
 /// H0 as a tree: how the components of the sublevel sets join as the value grows. For points under
 /// the Rips filtration, this is the single-linkage dendrogram, and the pairs (u, v) are the edges
-/// of the Euclidean minimum spanning tree (Gower & Ross 1969), which takes near-linear time for
-/// millions of points.
+/// of a minimum spanning tree (Gower & Ross 1969). With Euclidean distances, finding this tree
+/// takes near-linear time for millions of points.
 struct MergeTree {
   std::vector<double> births;  ///< one per vertex; kInfinity for a vertex that never enters
   std::vector<Merge> merges;   ///< in the order of the filtration
@@ -48,11 +48,11 @@ struct MergeTree {
   /// For each vertex, the vertex that gave birth to its component in the sublevel set of `value`
   /// (after all merges at values <= value); -1 for a vertex that has not entered.
   std::vector<Index> components(double value) const;
-  /// Performs all merges except those that separate two basins (see Merge::separates). Returns, for
-  /// each vertex, a vertex that stands for its entire basin; -1 for a vertex that never enters. A
-  /// vertex belongs to the side from which the spanning forest reaches it, which makes a basin grow
-  /// until it meets another one, as in ToMATo (Chazal, Guibas, Oudot & Skraba 2013). O(vertices);
-  /// every cut is as quick as the first.
+  /// Performs all merges except merges that separate two basins (see Merge::separates). Returns,
+  /// for each vertex, a vertex that stands for its entire basin; -1 for a vertex that never enters.
+  /// A vertex belongs to the side from which the spanning forest reaches it, which makes a basin
+  /// grow until it meets another one, as in ToMATo (Chazal, Guibas, Oudot & Skraba 2013).
+  /// O(vertices); every cut is as quick as the first.
   std::vector<Index> basins(double min_persistence, Index min_size = 1) const;
   /// A class of H0: the component that a vertex gave birth to, until it merges into an older
   /// component.
@@ -61,7 +61,7 @@ struct MergeTree {
     Index vertex;
     Index merge;  ///< position in `merges` of the merge in which it dies; -1 if it never dies
   };
-  /// All classes, including those of length zero, by (birth, death, vertex): the order of a
+  /// All classes, including classes of length zero, by (birth, death, vertex): the order of a
   /// barcode.
   std::vector<Class> classes() const;
   /// The same classes as branches, in the order of the vertices that gave birth to them.

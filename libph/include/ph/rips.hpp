@@ -94,8 +94,8 @@ struct RipsSample {
 /// distance.
 ///
 /// An object defines a filtration: the constructor checks options and coordinates and makes no
-/// edges. Forms are made when a computation needs them, each form once. It is a value: copies are
-/// cheap and share everything that is made; several threads may call const members.
+/// edges. Forms are made when a computation needs them, each form once. A Rips object is a value:
+/// copies are cheap and share everything that is made; several threads may call const members.
 ///
 /// The context of the constructor counts the memory of the forms and of points that were copied or
 /// moved in; it must outlive all copies. The context of a call limits, watches and stops the work

@@ -42,8 +42,8 @@ struct FiniteBars {
   std::size_t dropped = 0;  ///< number of bars left out
 };
 
-/// Bars with both ends finite. Bars born at -infinity cannot be capped: `cap` refuses them as well
-/// as `refuse`.
+/// Bars with both ends finite. Bars born at -infinity cannot be capped: the rules `cap` and
+/// `refuse` both refuse such bars.
 FiniteBars finite_bars(std::span<const Bar> bars, const InfiniteBars& rule = {});
 
 /// The values at which a function is evaluated: `points` values, equally spaced, with both ends
@@ -253,7 +253,7 @@ using DiagramKernel =
     std::function<double(std::span<const Bar>, std::span<const Bar>, const RunContext&)>;
 
 /// The Gram matrix of N diagrams: N × N in C order, symmetric. Threads share the pairs; the result
-/// does not depend on them.
+/// does not depend on the number of threads.
 /// @param kernel symmetric; called once per pair, including each diagram with itself, with a
 /// context of one thread.
 /// @throws what `kernel` throws; Error (cancelled).

@@ -125,14 +125,12 @@ struct ReadOptions {
   std::vector<Index>* dropped = nullptr;   ///< receives the rows that were left out, ascending
 };
 
-// Every reader takes a path ("-" is standard input) or an open Input. All of them throw
-//   Error (bad_data)   "name:line:column (or byte): what, found X, expected Y; hint"
-//   Error (no_input)   the file is missing, unreadable or a directory
-//   Error (io)         reading broke off, or there is no room for a temporary file
-//   Error (resource)   the budget of the context would be exceeded
-//   Error (cancelled)  a stop was requested
-//   Error (usage)      options.columns names a missing column, or an option does not fit
-// They need linear time, and never allocate more than in proportion to the size of the input.
+// Every reader takes a path ("-" is standard input) or an open Input. All of them throw Error
+// (bad_data) "name:line:column (or byte): what, found X, expected Y; hint" Error (no_input) the
+// file is missing, unreadable or a directory Error (io) reading broke off, or there is no room for
+// a temporary file Error (resource) the budget of the context would be exceeded Error (cancelled) a
+// stop was requested Error (usage) options.columns names a missing column, or an option does not
+// fit The readers take linear time, and memory at most in proportion to the size of the input.
 
 /// Points, one per line: numbers separated by blanks, commas or semicolons. A first row without any
 /// number is skipped with a note. Also takes NPY (2-D), NPZ, PCD and PLY, recognised by content.

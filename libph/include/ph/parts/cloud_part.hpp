@@ -51,8 +51,8 @@ struct CloudPartForecast {
 class CloudPart {
  public:
   /// Reads all points in order: once for the entire cloud, and once more for each block. Holds the
-  /// points of a block and those near it, about 200 bytes per point, and 16 to 24 bytes per edge
-  /// found. The points may therefore be a mapped file that is larger than the memory.
+  /// points of a block and the points near it, about 200 bytes per point, and 16 to 24 bytes per
+  /// edge found. The points may therefore be a mapped file that is larger than the memory.
   /// @param points the entire cloud, one point per row. @param part counted from 0.
   /// @param context must outlive the part and the part that it is joined with; the same holds for
   /// `of_bytes`.

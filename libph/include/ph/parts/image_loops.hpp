@@ -27,9 +27,9 @@ namespace ph {
 ///     Barcode bars = loops.barcode();              // the bars of all parts together are complete
 class ImageLoops {
  public:
-  /// @param part must have just been computed, as a single part with has_loops(). It lends its
-  ///        voxels and its data on loops to this object; it keeps its bars and the data at its two
-  ///        ends.
+  /// @param part must have just been computed, as a single part with has_loops(). The part lends
+  ///        its voxels and its data on loops to this object, and keeps its bars and the data at its
+  ///        two ends.
   /// @param field the characteristic of the coefficients; the same in all parts.
   /// @param context must outlive this object.
   /// @throws Error (usage) on any other part, or on an invalid field.
@@ -44,13 +44,13 @@ class ImageLoops {
   void begin(std::span<const std::byte> told);
   /// Takes in a message for this part, which may come even before `begin`. Each message must come
   /// once, in any order.
-  /// @throws Error (bad_data) if a message is damaged or has come before; later results are useless
-  ///         then.
+  /// @throws Error (bad_data) if a message is damaged or has come before; later results are then
+  ///         useless.
   void receive(std::span<const std::byte> message);
   /// True if there is nothing to do until a message is received.
   bool is_idle() const;
-  /// Reduces up to `most` columns, or until all columns are done or wait for other parts. @throws
-  /// Error (cancelled).
+  /// Reduces up to `most` columns, and stops earlier if all columns are done or wait for other
+  /// parts. @throws Error (cancelled).
   void work(std::size_t most = SIZE_MAX);
 
   struct Message {

@@ -38,7 +38,8 @@ void Cubical::for_each_cell(int dim, Visit&& visit) const {
   if (dim < 0 || dim > dim_ || cells_ == 0) return;
   const auto& keys = table().keys;
   const auto axes = static_cast<std::size_t>(dim_);
-  // One set of axes with odd coordinates after the other; the cells of a set come in grid order.
+  // Takes the sets of axes with odd coordinates one after another; the cells of a set come in grid
+  // order.
   for (unsigned odd = 0; odd < (1U << dim_); ++odd) {
     if (std::popcount(odd) != dim) continue;
     std::array<std::uint64_t, kMaxDim> at{};
@@ -95,9 +96,9 @@ void Cubical::for_each_cofacet(int, const Cell& cell, Visit&& visit) const {
     std::uint64_t index;
     int incidence;
   };
-  // Visited in grid order: the first cofacet with the key of the cell is therefore the oldest.
-  // Without wrapping, grid order means downwards from the slowest axis to the fastest, then upwards
-  // from the fastest to the slowest.
+  // Cofacets are visited in grid order: the first cofacet with the key of the cell is therefore the
+  // oldest. Without wrapping, grid order means downwards from the slowest axis to the fastest, then
+  // upwards from the fastest to the slowest.
   std::array<Cofacet, 2 * kMaxDim> cofacets;
   int down = 0, up = 2 * kMaxDim;
   int sign = 1;

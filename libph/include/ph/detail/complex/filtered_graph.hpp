@@ -34,7 +34,7 @@ class FilteredGraph {
 
   Index size() const { return static_cast<Index>(births_.size()); }
   std::size_t edge_count() const { return edges_.size(); }  ///< number of edges that enter
-  /// Number of vertices, including those that never enter.
+  /// Number of vertices, including vertices that never enter.
   std::size_t vertex_count() const { return births_.size(); }
   static std::size_t vertex_number(Cell vertex) { return vertex; }
 

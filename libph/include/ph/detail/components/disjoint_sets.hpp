@@ -29,8 +29,7 @@ class DisjointSets {
   /// Prefetches the entry that `find` reads first. Call it some time before `find`, because memory
   /// is slower than the other work on a set.
   void prefetch(std::uint32_t v) const { __builtin_prefetch(&parent_[v]); }
-  /// To be called when `prefetch` has had time to finish: it prefetches the entry that `find` reads
-  /// next.
+  /// Prefetches the entry that `find` reads next. Call it when `prefetch` has had time to finish.
   void prefetch_parent(std::uint32_t v) const { __builtin_prefetch(&parent_[parent_[v]]); }
   /// Makes `root` the parent of `child`. Precondition: `child` is the root of a set that does not
   /// contain `root`.

@@ -43,7 +43,7 @@ bool close(int file);
 
 /// @{ For reading.
 
-/// Opens a file to read its bytes unchanged. It does not wait for a writer of a FIFO. @return -1 if
+/// Opens a file to read its bytes unchanged, without waiting for a writer of a FIFO. @return -1 if
 /// it failed; errno is EISDIR for a folder.
 int open_to_read(const std::filesystem::path& path);
 /// Makes standard input or output pass bytes unchanged. @param standard its descriptor.

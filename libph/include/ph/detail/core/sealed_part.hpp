@@ -7,9 +7,9 @@
 
 namespace ph {
 
-/// A part of a result in its stored form: its kind, and a checksum that shows if all of it arrived.
-/// The layout: eight bytes "ph part\n", eight bytes for the kind, the version as 32 bits, the size
-/// of the content as 64 bits, the content, and the CRC-32 of everything before it.
+/// A part of a result in its stored form: its kind, and a checksum that shows whether all of it
+/// arrived. The layout: eight bytes "ph part\n", eight bytes for the kind, the version as 32 bits,
+/// the size of the content as 64 bits, the content, and the CRC-32 of everything before it.
 ///
 /// @param kind at most eight characters: "image". @param content the bytes of the part.
 std::vector<std::byte> sealed_part(std::string_view kind, std::span<const std::byte> content);
@@ -17,11 +17,11 @@ std::vector<std::byte> sealed_part(std::string_view kind, std::span<const std::b
 /// True if bytes begin like a part.
 bool is_sealed_part(std::span<const std::byte> bytes);
 
-/// The kind of a part. @throws Error (bad_data) if the bytes are not a part, or not complete.
+/// The kind of a part. @throws Error (bad_data) if the bytes are not a complete part.
 std::string_view kind_of_part(std::span<const std::byte> bytes);
 
-/// The content of a part. @throws Error (bad_data) if the bytes are not a part, not complete, or of
-/// another kind.
+/// The content of a part. @throws Error (bad_data) if the bytes are not a complete part of this
+/// kind.
 std::span<const std::byte> content_of_part(std::span<const std::byte> bytes, std::string_view kind);
 
 }  // namespace ph

@@ -11,8 +11,9 @@ namespace ph::cubical {
 /// True if `pair_voxels` can process the image, which must have voxels. An axis counts if it has
 /// more than one voxel or, in the T-construction, is not periodic. With at most two such axes, all
 /// bars come from the two graphs of `pair_voxels`, and the number of voxels is unlimited. With
-/// three axes, the bars that do not come from the graphs are refused from about 2^31 voxels on,
-/// when they are asked for. With more axes, these bars need fewer than 2^32 cells (2^d per voxel).
+/// three axes, `pair_voxels` refuses an image of about 2^31 voxels or more if bars are wanted that
+/// do not come from the graphs. With more axes, these bars require that the image has fewer than
+/// 2^32 cells (2^d per voxel).
 bool can_pair_voxels(const CubicalImage& grid, int max_dim);
 /// The bytes that `pair_voxels` takes in addition to the image, not counting critical cells and
 /// bars. Precondition: `can_pair_voxels`.
@@ -21,8 +22,8 @@ double bytes_to_pair_voxels(const CubicalImage& grid);
 /// short. If the image cannot be processed in this way, the result is bytes_to_pair_voxels.
 /// Precondition: `can_pair_voxels`.
 double least_bytes_to_pair_voxels(const CubicalImage& grid);
-/// True if least_bytes_to_pair_voxels, and the bars, are all the memory needed: no bars are wanted
-/// that need all layers at once. Precondition: `can_pair_voxels`.
+/// True if `pair_voxels` needs no memory beyond least_bytes_to_pair_voxels and the bars, because no
+/// wanted bar needs all layers at once. Precondition: `can_pair_voxels`.
 bool can_pair_by_layers(const CubicalImage& grid, const BarRequest& wanted);
 
 /// True if `pair_voxels` can process some layers at a time on request.

@@ -37,7 +37,7 @@ class GroundCost {
   }
   /// The cost of moving to the nearest point of the diagonal.
   double alone(const Point& p) const { return power(to_diagonal_ * ((p[1] - p[0]) / 2)); }
-  /// A lower bound for the cost of pairing p with a point of the box of a tree's node.
+  /// A lower bound on the cost of pairing p with a point in the box of a node of a tree.
   double pair_with_box(const Point& p, const double* box) const {
     return power(norm(std::max({0.0, box[0] - p[0], p[0] - box[1]}),
                       std::max({0.0, box[2] - p[1], p[1] - box[3]})));

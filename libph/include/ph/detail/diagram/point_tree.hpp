@@ -51,8 +51,8 @@ class PointTree {
   }
   /// Smallest and largest birth, smallest and largest death.
   const double* box(Node node) const { return tree_.box(node); }
-  /// The distance from p to the node's box in the maximum metric. Rounding keeps the order of
-  /// distances; no point of the node is therefore nearer than this.
+  /// The distance from p to the node's box in the maximum metric. Rounding is monotone; therefore
+  /// the computed distance to a point of the node is never smaller.
   double distance_to_box(const Point& p, Node node) const {
     const double* const b = box(node);
     return std::max({0.0, b[0] - p[0], p[0] - b[1], b[2] - p[1], p[1] - b[3]});

@@ -9,8 +9,8 @@
 
 namespace ph {
 
-/// The barcode with vertices renamed to those of an input from which some points were left out:
-/// vertex v becomes ids[v]. The bars keep their places. Precondition: the ids ascend.
+/// The barcode with its vertices renamed to points of an input from which some points were left
+/// out: vertex v becomes ids[v]. The bars keep their places. Precondition: the ids ascend.
 /// @throws Error (usage) if the cells have no vertices, or vertices without an id.
 Barcode with_input_ids(const Barcode& barcode, const std::vector<Index>& ids);
 /// Renames the vertices of loops in the same way. @throws Error (usage) on a vertex without an id.

@@ -36,7 +36,8 @@ constexpr EngineFacts facts() {
   return facts;
 }
 
-/// A filtration that holds only points has no cells for engines that do not take points.
+/// True if the engine can do the task. A filtration that holds only points has no cells, which
+/// rules out engines that do not take points.
 template <class E, Filtration F>
 bool can_run(const F& f, const Task& task) {
   if constexpr (requires { f.points_alone(); }) {

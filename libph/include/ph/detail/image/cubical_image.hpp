@@ -34,9 +34,9 @@ inline std::size_t bytes_of(VoxelType type) {
   return with_voxels(type, nullptr, []<class T>(const T*) { return sizeof(T); });
 }
 
-/// The cubical filtration of an image, given by the image itself: all that an engine needs if it
-/// goes voxel by voxel and never lists cells. It points to voxels, which must outlive it. NaN marks
-/// an absent voxel.
+/// The cubical filtration of an image, given by the image itself. An engine that goes voxel by
+/// voxel and never lists cells needs nothing else. The struct points to voxels, which must outlive
+/// it. NaN marks an absent voxel.
 struct CubicalImage {
   std::vector<Index> extents;  ///< in C order: the last axis is the fastest
   std::vector<bool> periodic;  ///< one per axis
@@ -63,7 +63,8 @@ struct CubicalImage {
 };
 
 /// Capability: the cubical filtration of an image. Its order is (value, place of the voxel that
-/// decides the value in C order; dimension; place of the cell in the doubled grid in C order).
+/// decides the value, dimension, place of the cell in the doubled grid). Both places are in C
+/// order.
 template <class F>
 concept VoxelFiltration = Filtration<F> && requires(const F& f) {
   { f.cubical_image() } -> std::same_as<CubicalImage>;

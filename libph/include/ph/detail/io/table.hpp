@@ -16,7 +16,7 @@ struct TableLayout {
   std::vector<std::string> header = {};
   std::size_t width = 0;                  ///< cells of the first row; 0 if there is no row
   std::vector<std::size_t> columns = {};  ///< the columns that hold numbers to be read, ascending
-  bool names_rows = false;                ///< the columns before these are an index of the rows
+  bool names_rows = false;                ///< the columns before the first of these index the rows
   std::vector<Message> notes = {};        ///< assumptions that were made
   char separator = ' ';     ///< separator of the first row: ',', ';', a tab, or blanks
   bool keeps_tabs = false;  ///< each tab separates two cells

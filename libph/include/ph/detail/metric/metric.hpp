@@ -89,7 +89,8 @@ class PointMetric {
  public:
   /// @param points one point per row, finite coordinates. @param p exponent of `minkowski`.
   /// @param largest if these points are a part of a cloud: the largest absolute coordinate of that
-  ///        cloud, which makes distances equal to the last bit. 0 if these are all points.
+  ///        cloud. With this number, the distances equal the distances in the whole cloud to the
+  ///        last bit. 0 if these are all points.
   /// @throws Error (bad_data) on a coordinate that is not finite or on a zero row with `cosine`;
   ///         Error (usage) if p < 1.
   explicit PointMetric(PointsView points, PointDistance distance = PointDistance::euclidean,

@@ -9,8 +9,8 @@ namespace ph {
 
 /// Apparent pairs (Bauer, Ripser, section 3.5): a cell and a cofacet of equal key, where the
 /// cofacet is the oldest cofacet of the cell and the cell is the youngest facet of the cofacet.
-/// Each of them is a persistence pair, found by looking at neighbours alone: nothing is reduced and
-/// nothing is stored. A filtration without cofacets has none.
+/// Each apparent pair is a persistence pair, found by looking at neighbours alone: nothing is
+/// reduced and nothing is stored. A filtration without cofacets has none.
 template <Filtration F, Field K>
 class ApparentPairs {
  public:

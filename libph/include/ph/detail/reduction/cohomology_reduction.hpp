@@ -24,9 +24,9 @@ namespace ph {
 
 /// Reduces coboundary columns, one dimension after the other, youngest first, with clearing (Chen &
 /// Kerber, Persistent homology computation with a twist): a cell found as a pivot needs no column
-/// of its own in the next dimension. A column to which others were added is kept as the cochain of
-/// which it is the coboundary (a cocycle until the death), because coboundaries are far longer than
-/// the cochains.
+/// of its own in the next dimension. A column to which other columns were added is kept as the
+/// cochain whose coboundary it is (a cocycle until the death), because coboundaries are far longer
+/// than the cochains.
 ///
 /// Several threads reduce columns at the same time, see PivotTable. The pairs do not depend on the
 /// number of threads: every reduction that adds younger columns to older ones has the same outcome.

@@ -106,11 +106,11 @@ class HomologyReduction {
   // Adds the multiple of `owner` to the working column that cancels the pivot, which was just
   // popped.
   void cancel_pivot(const Term& pivot, const Column& owner, Ticker& ticker);
-  // The column whose pivot `cell` is, or null if there is none yet. Valid until the next call.
+  // The column with the pivot `cell`, or null if there is none yet. Valid until the next call.
   const Column* owner_of(const Cell& cell);
   // In dimension 1 the boundary of an edge is the difference of two vertices and stays such a
-  // difference under reduction, which makes a heap unnecessary. Both entries are reduced to the
-  // end: later columns that meet the stored column get there in one step.
+  // difference under reduction, which makes a heap unnecessary. Both entries are fully reduced,
+  // which lets later columns that meet the stored column reach the final vertex in one step.
   void reduce_edge(const Cell& edge, Ticker& ticker);
   // The other entry of a column of two entries.
   Cell other_end(const Column& column, const Cell& pivot) const;

@@ -29,9 +29,9 @@ struct ReducedColumn {
 ///
 /// A column is published, then claims its pivot: it takes the pivot's slot if that is free or holds
 /// a higher column, which then has to be reduced further and published again. As a result, the
-/// numbers in a slot only fall, and each slot keeps its cell. A reader may find a column in a slot
-/// that by now has another pivot. It then looks at the slot again: the slot changed before that
-/// column was published again.
+/// numbers in a slot only fall, and each slot keeps its cell. A reader may find, in a slot, a
+/// column that has another pivot by now. The reader then looks at the slot again: the slot changed
+/// before that column was published again.
 ///
 /// FlatMap cannot be used, because several threads insert and replace at once, by compare-and-swap.
 template <CofacetFiltration F, Field K>

@@ -61,7 +61,7 @@ class BinnedEdges {
     std::mutex mutex;  // held by a thread that sorts, or that looks at unsorted edges
     std::size_t sorted_bins = 0;
     std::atomic<std::size_t> sorted_edges{0};  // number of edges in these bins
-    // Written by `ahead`, the only thread that looks there.
+    // Set by the thread `ahead`; read after that thread has been joined.
     bool is_next_sorted = false;
     std::jthread ahead;
   };

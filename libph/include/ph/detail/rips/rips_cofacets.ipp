@@ -79,8 +79,9 @@ void RipsFiltration<Layout, Words>::for_each_cofacet_within(int dim, const Cell&
 
 template <RipsLayout Layout, int Words>
 auto RipsFiltration<Layout, Words>::horizon(Key key) const -> Key {
-  // The share was chosen by measurement, see docs/explanation/engines/cohomology.md. Merging the
-  // lists of neighbours once more takes longer than a limit saves.
+  // The share was chosen by measurement, see docs/explanation/engines/cohomology.md. Without a
+  // matrix there is no limit, because merging the lists of neighbours again takes longer than a
+  // limit saves.
   constexpr Key share = 16;
   constexpr Key no_limit = std::numeric_limits<Key>::max();
   if (!has_matrix()) return no_limit;

@@ -25,8 +25,8 @@ auto RipsFiltration<Layout, Words>::apparent_cofacet(int dim, const Cell& cell) 
   return Cell{cell.key, frame | Vertices(w) << (place * bits_)};
 }
 
-// The apparent pair of a cell that is its cofacet: the facet lacks m; m must be the first vertex
-// that can be added to the facet.
+// Here the cell is the cofacet of its pair. The facet is the cell without m, provided that m is the
+// first vertex that can be added to this facet.
 template <RipsLayout Layout, int Words>
 auto RipsFiltration<Layout, Words>::apparent_facet(int dim, const Cell& cell) const
     -> std::optional<Cell> {

@@ -38,7 +38,7 @@ class RipsGraph {
 
   /// Evaluates all n(n-1)/2 distances, twice. @throws Error (bad_data) on a negative or NaN
   /// distance.
-  /// @param weights the weights of the vertices, here and below; all vertices enter up to the
+  /// @param weights the weights of the vertices, here and below; no vertex may enter after the
   /// threshold.
   template <Metric M>
   static RipsGraph of_metric(const M& metric, std::optional<double> threshold,
@@ -92,7 +92,8 @@ class RipsGraph {
   Index size() const { return size_; }
   /// The point that vertex v stands for: v itself unless the vertices were named.
   Index name(std::uint32_t v) const { return names_.empty() ? Index{v} : Index{names_[v]}; }
-  /// True even if there are no vertices: then all points of the input are left out.
+  /// True if the vertices were named. This holds even without vertices, if all points of the input
+  /// are left out.
   bool has_names() const { return has_names_; }
   /// Sets the points that the vertices stand for; existing names are translated.
   /// @param points ascending.
@@ -192,7 +193,7 @@ RipsGraph RipsGraph::of_metric(const M& metric, std::optional<double> threshold,
   const Index n = metric.size();
   check_arguments(n, threshold);
   // The first pass finds the enclosing radius and the distribution of the distances, the second
-  // keeps the distances within it: distances are evaluated twice instead of being stored.
+  // keeps the distances up to the limit. Each distance is evaluated twice instead of being stored.
   const RowDistances<M> distances(metric, &context.memory);
   const std::size_t ranges = range_count(n, context);
   const bool is_weighted = !weights.births().empty();
