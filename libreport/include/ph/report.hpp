@@ -29,7 +29,9 @@ struct BarcodePage {
   bool is_euclidean = false;
   bool has_axes_of_space = false;   ///< true if the first axis of an image with three axes is x
   const ShownTree* tree = nullptr;  ///< tree of the complex; null: not shown
-  bool negated = false;             ///< values are minus those of the data; an image says so itself
+  /// True if values are the negated values of the data. Not used for an image, which states this
+  /// itself.
+  bool negated = false;
   /// The origin of the page's contents; write_page adds notes about anything that is not shown.
   Provenance provenance = {};
 };

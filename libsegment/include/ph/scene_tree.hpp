@@ -116,7 +116,7 @@ struct Segment {
   double persistence = kInfinity;
   std::uint32_t neighbour = 0;  ///< neighbours.front(); 0: none
   double meets_at = kInfinity;  ///< value of the filtration at which it first touches a neighbour
-  Vec3 centroid{};              ///< mean of its points, without the points won back from the plane
+  Vec3 centroid{};              ///< mean of its points, without points taken back from the plane
   Box box;                      ///< axis-aligned box of its points
   /// The tightest box of its points. If a plane was removed, the box stands on it: axes[2] is the
   /// normal of the plane, and axes[0] is the longer side of the smallest rectangle around the
@@ -124,7 +124,7 @@ struct Segment {
   /// longest first.
   OrientedBox oriented_box;
   Role role = Role::unknown;          ///< object or unknown
-  StandsOn on;                        ///< what it stands on, as far as this is seen
+  StandsOn on;                        ///< its support, as far as this is visible
   std::vector<Neighbour> neighbours;  ///< all segments that it touches, first contact first
   friend bool operator==(const Segment&, const Segment&) = default;
 };
@@ -168,9 +168,9 @@ struct SceneTree {
   std::size_t cloud_size() const { return static_cast<std::size_t>(width * height); }
 
   // The next three members describe the points that have a vertex, in the order of the cloud.
-  std::vector<Index> points;                   ///< its number in the cloud, ascending
-  std::vector<std::uint32_t> vertex_of_point;  ///< its vertex
-  std::vector<float> xyz;                      ///< its coordinates
+  std::vector<Index> points;                   ///< their numbers in the cloud, ascending
+  std::vector<std::uint32_t> vertex_of_point;  ///< their vertices
+  std::vector<float> xyz;                      ///< their coordinates
 
   /// For each point of the cloud: the number, from 1, of the removed surface on which it lies; 0:
   /// none.
@@ -181,10 +181,10 @@ struct SceneTree {
   std::vector<Vec3> cells;  ///< whole numbers: the corner of the voxel, divided by the voxel's edge
   Points vertices;          ///< centroids, one per row
   Points normals;  ///< not paper: unit normals, one per row, NaN where there is none; else 0 rows
-  std::vector<Index> counts;  ///< how many points the centroid averages
+  std::vector<Index> counts;  ///< number of points that the centroid averages
 
   Index edges = 0;       ///< edges of the filtered graph
-  MergeTree merge_tree;  ///< which vertices join, at which value
+  MergeTree merge_tree;  ///< the merges of the vertices, with their values
 };
 
 /// The segments of one cut.
@@ -196,10 +196,10 @@ struct SceneCut {
   std::vector<std::uint8_t> surface_labels;
 };
 
-/// Makes a coarser or finer cut within milliseconds, without a new segmentation. It finds anew
-/// which voxels are near each other, which parts make an object (not paper), which segments touch,
-/// and the properties of each segment; planes, voxels, normals and the tree come from `scene`.
-/// `cut(scene, scene.first_cut)` gives the result of ph::segment::segment.
+/// Makes a coarser or finer cut within milliseconds, without a new segmentation. It determines
+/// again which voxels are near each other, which parts make an object (not paper), which segments
+/// touch, and the properties of each segment; planes, voxels, normals and the tree come from
+/// `scene`. `cut(scene, scene.first_cut)` gives the result of ph::segment::segment.
 /// @throws Error (usage) on an option out of its range, or a distance beyond the tree's; Error
 ///         (bad_data) if arrays of the scene disagree. All functions below throw the same errors.
 SceneCut cut(const SceneTree& scene, const CutOptions& options,
@@ -211,7 +211,8 @@ struct Meeting {
   double value = 0;
   Vec3 at{};  ///< a point between the two voxels whose edge joins the segments
 };
-/// @return empty if they never meet. @throws Error (usage) unless both labels belong to segments.
+/// The first meeting of segments `a` and `b`; empty if they never meet. @throws Error (usage)
+/// unless both labels belong to segments.
 std::optional<Meeting> first_meeting(const SceneTree& scene, const SceneCut& cut, std::uint32_t a,
                                      std::uint32_t b);
 

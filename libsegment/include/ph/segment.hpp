@@ -90,8 +90,7 @@ struct SegmentOptions {
   double part_persistence() const {
     return min_persistence.value_or(method == Method::supervoxels ? 0 : CutOptions().value);
   }
-  /// The cut that these options describe; values that were not given are those that suit the
-  /// method.
+  /// The cut that these options describe; a value that was not given is the default of the method.
   CutOptions cut() const {
     if (method == Method::supervoxels)
       return {part_persistence(), min_part.value_or(8), min_size.value_or(1), false};
@@ -108,8 +107,8 @@ struct Stage {
   double seconds = 0;  ///< wall-clock time
 };
 
-/// How well the viewpoint fits the supporting plane, as shares of the points in range off the
-/// plane.
+/// The fit of the viewpoint to the supporting plane: shares of the points that are in range and not
+/// on the plane.
 struct PlaneSight {
   double behind = 0;  ///< behind the plane as seen from the viewpoint, past its edge or hidden
   double hidden = 0;  ///< behind points of the plane: no sensor at the viewpoint could see them
@@ -120,9 +119,10 @@ struct PlaneSight {
 struct Segmentation {
   SceneTree tree;
   SceneCut cut;            ///< the cut that the tree's `first_cut` describes
-  std::string plane_note;  ///< why there is no plane; empty if there is one
+  std::string plane_note;  ///< the reason why there is no plane; empty if there is one
   /// Where the pixels' rays meet, if this differs from the position of the sensor that the options
-  /// or the cloud state. It is the `viewpoint` unless the options state one.
+  /// or the cloud state. This place becomes the `viewpoint` of the tree unless the options state
+  /// one.
   std::optional<Vec3> rays_meet_at;
   PlaneSight plane_sight;       ///< large shares mean that the viewpoint is wrong
   Barcode barcode = Barcode();  ///< H0, zero-length bars included

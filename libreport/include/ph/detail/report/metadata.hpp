@@ -61,7 +61,7 @@ struct Distance {
 struct Metadata {
   std::string title;
   std::string value_label, value_unit = {};  ///< label and unit of filtration values
-  bool negated = false;  ///< filtration values are minus those of the data (superlevel sets)
+  bool negated = false;  ///< filtration values are the negated values of the data (superlevel sets)
   std::vector<BarcodeMeta> barcodes;  ///< one barcode, or two in a comparison
   std::optional<CloudMeta> cloud = {};
   std::string construction = {};       ///< for an image: "vertices" or "cells"

@@ -29,7 +29,7 @@ struct TreeMeta {
   double from = 0;                   ///< least cut for which the contraction is correct
   std::optional<double> to = {};     ///< largest such cut, if there is one
   Index min_size = 1;                ///< fewest vertices of a segment
-  std::string what;                  ///< what the page calls a part, such as "segment"
+  std::string what;                  ///< the word for a part on the page, such as "segment"
   std::vector<std::string> command;  ///< command for another cut, "{cut}" standing for its value
 };
 
@@ -62,8 +62,8 @@ struct ShownTree {
   TreeMeta meta;
 };
 
-/// The merge tree of a complex. Empty if its vertices are not those of the input (points that are
-/// not vertices, corners between voxels), or if there are too many of them.
+/// The merge tree of a complex. Empty if its vertices do not correspond to the input (some points
+/// are not vertices, or vertices are corners between voxels), or if it has too many vertices.
 /// @throws Error (resource, cancelled).
 std::optional<MergeTree> whole_tree(const AnyComplex& complex, const RunContext& context);
 

@@ -15,8 +15,8 @@ inline constexpr double kLeastShareOnSurface = 0.85;
 /// parallel to the support, and the frame shows nothing behind its plane; behind the face of a box,
 /// the frame shows what the box stands on. A further support is flat, parallel to the support, and
 /// larger than anything one can lift.
-/// @param cloud all points count, even those out of range. @param component_of for each vertex, one
-/// of the vertices of its component. @param min_size fewest voxels of an examined component.
+/// @param cloud all points count, even points out of range. @param component_of for each vertex,
+/// one of the vertices of its component. @param min_size fewest voxels of an examined component.
 /// O(voxels + points for each flat component that is not parallel to the support).
 std::vector<SceneSurface> find_bounds(const CloudView& cloud, const Plane& support,
                                       const SceneTree& scene,

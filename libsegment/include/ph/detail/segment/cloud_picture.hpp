@@ -37,7 +37,7 @@ std::uint32_t colour_in_picture(std::optional<std::uint32_t> colour);
 
 /// A picture of a scene, RGB, at most 1040 pixels per side (88 mm at 300 dots per inch). Segments
 /// have their colours, all other points are light grey, and hidden points are left out. The
-/// segments fill the picture; the perspective is that of an eye as far away as the sensor was.
+/// segments fill the picture; the eye is as far away as the sensor was.
 /// @param cloud null: only the points that have a vertex exist.
 /// @param colours of each segment, 0x00RRGGBB. @throws Error (resource).
 CloudPicture cloud_picture(const Cloud* cloud, const SceneTree& scene,
