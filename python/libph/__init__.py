@@ -9,7 +9,7 @@ array([[1.        , 1.41421356]])
 Computations release the GIL and stop on Ctrl-C. All of them accept these keywords:
 
 threads : int
-    How many threads to use. Default: one per core. Results do not depend on it.
+    How many threads to use. Default: one per core. Results do not depend on this number.
 memory_limit : int or str
     The most memory that the computation may take, in bytes or as "4GiB"; beyond it, the computation
     ends in a `MemoryLimitError`. Default: 90 % of the free memory of the machine or of the control

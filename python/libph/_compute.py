@@ -67,7 +67,7 @@ def rips(X: Any, *, max_dim: int | None = 1, min_dim: int = 0, threshold: float 
         The exponent that governs how a ball grows after the birth of its point. Default: 1 for
         "dtm", inf otherwise.
     subsample : int, optional
-        Number of points to keep, each the farthest from those before it.
+        Number of points to keep. Each is the farthest from the points before it.
     subsample_radius : float, optional
         Points are added to the subsample until every point is at most this far from one of them.
     approximation : float, optional
@@ -140,9 +140,9 @@ def alpha(X: Any, *, values: str = "alpha", squared: bool | None = None,
     """The barcode of growing balls around points on a line, in the plane or in space.
 
     Uses an alpha complex: the simplices of the Delaunay triangulation, each of which enters when
-    the balls around its vertices, cut to their Voronoi cells, meet. Its bars are those of the union
-    of the balls, in all dimensions, and it has few simplices: a million points in space take
-    seconds. Values are radii, so that values of H0 are half of those of `rips`. See
+    the balls around its vertices, cut to their Voronoi cells, meet. Its bars are the bars of the
+    union of the balls, in all dimensions, and it has few simplices: a million points in space take
+    seconds. Values are radii; values of H0 are therefore half as large as in `rips`. See
     docs/explanation/engines/alpha.md.
 
     Parameters

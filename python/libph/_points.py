@@ -27,9 +27,9 @@ class Subsample(NamedTuple):
     indices : ndarray
         The points, point 0 first.
     radii : ndarray
-        The distance of each point to the nearest of those before it; inf for the first.
+        The distance of each point to the nearest point before it; inf for the first.
     covering_radius : float
-        Each point of the whole set is at most this far from one of them.
+        Each point of the whole set is at most this far from one of these points.
     """
 
     indices: NDArray[np.int64]
@@ -99,8 +99,9 @@ def delay_embedding(series: ArrayLike, dimension: int, delay: int = 1, *,
     -------
     ndarray
         Shape (points, dimension * quantities), where points = times - (dimension - 1) * delay: all
-        quantities of the first time come first, then those of the next. With `window`, the shape is
-        (windows, points per window, dimension * quantities). The array may be a view of `series`.
+        quantities of the first time come first, then all quantities of the next time. With
+        `window`, the shape is (windows, points per window, dimension * quantities). The array may
+        be a view of `series`.
 
     Examples
     --------
@@ -142,7 +143,7 @@ def delay_embedding(series: ArrayLike, dimension: int, delay: int = 1, *,
 def farthest_points(X: Any, n: int | None = None, *, radius: float = 0.0,
                     metric: Any = "euclidean", minkowski_p: float = 2.0,
                     **run: Unpack[RunOptions]) -> Subsample:
-    """Farthest-point sampling: after point 0, each point is the farthest from all before it.
+    """Farthest-point sampling: after point 0, each point is the farthest from the points before it.
 
     Parameters
     ----------

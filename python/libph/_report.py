@@ -71,7 +71,7 @@ class Report:
 
 
 def require_page() -> None:
-    """To be called before the computation."""
+    """Raises NotBuiltIn if this build has no page of reports. Call it before the computation."""
     if not _core.has_page():
         raise NotBuiltIn("report: this build of libph has no page of reports, because npm or its packages "
                          "were missing. Install Node.js with npm (Debian: apt "

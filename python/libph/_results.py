@@ -65,8 +65,8 @@ def description_of(meta: Any) -> str:
 
 
 def vertex_weights_of(meta: Any) -> str:
-    """Why vertices enter late, in the words of ph-barcode: "dtm 5, exponent 1". Empty if they do
-    not."""
+    """The reason why vertices enter late, in the words of ph-barcode: "dtm 5, exponent 1". Empty if
+    no vertex enters late."""
     weights = meta.get("weights")
     if weights is None:
         return ""

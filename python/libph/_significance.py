@@ -84,8 +84,8 @@ def confidence_radius(X: ArrayLike, *, alpha: float = 0.05, subsamples: int = 10
 
     With probability 1 - alpha, the Hausdorff distance is at most c, as the number of points grows
     [Fasy et al. 2014, subsampling]. Therefore bars of the distance function that are longer than 2
-    c are real. Bars of `rips` are twice as long, because its values are diameters: there, bars
-    longer than 4 c are real. The bound is conservative: expect it to be large.
+    c are real. The values of `rips` are diameters, which are twice as large: bars of `rips` longer
+    than 4 c are real. The bound is conservative: expect it to be large.
 
     Parameters
     ----------
@@ -148,7 +148,7 @@ class Band(NamedTuple):
         Parameters
         ----------
         ax : matplotlib.axes.Axes, optional
-            The axes to draw on. Default: those of a new figure.
+            The axes to draw on. Default: the axes of a new figure.
         grid : array_like, optional
             The values at which the functions were evaluated. Default: 0, 1, 2, …
         layer : int
@@ -234,7 +234,7 @@ class PermutationTest(NamedTuple):
     p : float
         The probability that groups from one distribution are as far apart.
     loss : float
-        The sum over the groups of half the mean distance within each.
+        The sum over the groups of half the mean distance within the group.
     """
 
     p: float

@@ -32,7 +32,7 @@ class MergeTree:
     values : ndarray
         The value of each merge, ascending.
     edges : ndarray
-        The edge that joins two components in each merge, (m, 2). Together they form a minimum
+        The edge that joins two components in each merge, (m, 2). Together, the edges form a minimum
         spanning forest.
     elder : ndarray
         The birth vertex of the component that survives each merge.

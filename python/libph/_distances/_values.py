@@ -185,7 +185,7 @@ def diagram_distances(diagrams: Iterable[Barcode | ArrayLike],
     dim : int, optional
         For barcodes: the dimension.
     distance : {"wasserstein", "bottleneck", "sliced_wasserstein"}
-        Which distance.
+        The distance to compute.
     order, ground : float
         For "wasserstein"; see `wasserstein`.
     relative_error : float

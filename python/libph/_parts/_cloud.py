@@ -41,7 +41,7 @@ class CloudPart(Part):
         self.threshold: float | None = facts["threshold"]
 
     def barcode(self, *, cells: bool = True, **run: Unpack[RunOptions]) -> Barcode:
-        """The bars of H0 of the cloud, identical to those of `rips` with ``max_dim=0``.
+        """The bars of H0 of the cloud, identical to the bars of `rips` with ``max_dim=0``.
 
         Parameters
         ----------

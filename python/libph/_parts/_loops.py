@@ -26,8 +26,8 @@ class ImageLoops:
 
     The parts work side by side, in any processes on any machines, and send each other messages
     until no message is in transit. Neither the schedule nor the order in which messages arrive
-    affects the result. An object cannot leave its process. After a call failed or was stopped, the
-    object is useless, and a new part must be computed.
+    affects the result. An object cannot leave its process. After a call that failed or was stopped,
+    the object is useless, and a new part must be computed.
 
     Parameters
     ----------

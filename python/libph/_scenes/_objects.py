@@ -26,8 +26,8 @@ class Segment(NamedTuple):
     voxels : int
         Number of its voxels.
     persistence : float
-        The value at which it first meets another object, less its own lowest value. It measures the
-        confidence in the object; inf if it meets no other.
+        The value at which the object first meets another one, less its own lowest value: the
+        confidence in the object. It is inf if the object meets no other.
     centroid : ndarray
         The mean of its points, without the points at its base on the plane.
     box : ndarray
@@ -35,8 +35,8 @@ class Segment(NamedTuple):
     centre : ndarray
         The middle of the tight box around its visible part.
     axes : ndarray
-        Three unit vectors along the tight box, one per row. If a plane was removed, the last one is
-        its normal.
+        Three unit vectors along the tight box, one per row. If a plane was removed, the last vector
+        is the normal of the plane.
     size : ndarray
         The length of the tight box along each axis.
     neighbours : tuple of (int, float)
@@ -79,10 +79,11 @@ class SceneSurface(NamedTuple):
     Attributes
     ----------
     role : str
-        "support": objects stand on it, such as a table, a board or the floor. "wall": nothing is
-        visible behind it.
+        "support": a plane that objects stand on, such as a table, a board or the floor. "wall": a
+        plane behind which nothing is visible.
     plane : tuple of float
-        (a, b, c, d) of ax + by + cz + d = 0; the left side is positive on the side of the camera.
+        (a, b, c, d) of ax + by + cz + d = 0. The left-hand side is positive for points on the same
+        side of the plane as the camera.
     """
 
     role: str

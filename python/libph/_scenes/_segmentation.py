@@ -262,8 +262,9 @@ class Segmentation:
     def signature(self, *labels: int, **run: Unpack[RunOptions]) -> Barcode:
         """The loops and hollows of an object, or of several objects together.
 
-        A bar of dimension 1 is a loop. It closes when the voxels have grown by its birth, and a
-        ball with its death as the radius fits through it. Lengths are in metres.
+        A bar of dimension 1 is a loop. The loop closes when the voxels have grown by the birth of
+        the bar, and the death of the bar is the radius of the largest ball that fits through the
+        loop. Lengths are in metres.
 
         Parameters
         ----------

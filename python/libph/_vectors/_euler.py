@@ -44,7 +44,7 @@ def euler_curve(image: Any, *, range: Iterable[float] | None = None,
 
     At t, it is the number of cells of even dimension that are present, minus the number of cells of
     odd dimension: in two dimensions, components minus holes; in three, components minus tunnels
-    plus hollows. It equals `Barcode.euler_curve` of the result of `cubical`, and takes some
+    plus hollows. It equals `Barcode.euler_curve` of the result of `cubical`, and takes a few
     nanoseconds per voxel [Heiss, Wagner 2017].
 
     Parameters
@@ -52,8 +52,8 @@ def euler_curve(image: Any, *, range: Iterable[float] | None = None,
     image : array_like or PointImage
         As in `cubical`.
     range : pair of float, optional
-        The ends of a grid at whose values the curve is computed, in little memory whatever the
-        image. Default: the exact curve, with all its steps.
+        The ends of a grid at whose values the curve is computed, in little memory for any image.
+        Default: the exact curve, with all its steps.
     resolution : int, optional
         Number of values of the grid, including both ends of the range. Default: 100.
     construction, superlevel, periodic, threshold, nan

@@ -32,8 +32,9 @@ def diagram_kernels(diagrams: Iterable[Barcode | ArrayLike],
     ``exp(-|p - q|² / (8 sigma)) - exp(-|p - q'|² / (8 sigma))`` over the bars p of one diagram and
     q of the other, divided by 8 π sigma; q' is q with birth and death exchanged.
 
-    "weighted_gaussian" is the persistence weighted Gaussian kernel [Kusano et al. 2016], the linear
-    one: the sum of ``w(p) w(q) exp(-|p - q|² / (2 sigma²))``, with w = arctan(slope · length^power).
+    "weighted_gaussian" is the linear version of the persistence weighted Gaussian kernel [Kusano et
+    al. 2016]: the sum of ``w(p) w(q) exp(-|p - q|² / (2 sigma²))``, with w = arctan(slope ·
+    length^power).
 
     All bars must be finite.
 
@@ -46,7 +47,7 @@ def diagram_kernels(diagrams: Iterable[Barcode | ArrayLike],
     dim : int, optional
         For barcodes: the dimension.
     kernel : {"scale_space", "weighted_gaussian"}
-        Which kernel.
+        The kernel to compute.
     sigma : float
         Width of the kernel: for "scale_space" in the squared unit of the values, for
         "weighted_gaussian" in the unit of the values.

@@ -73,9 +73,9 @@ class Summaries:
         unit : {"nats", "bits"}
             Natural logarithms, or logarithms to the base 2, as in giotto-tda.
         normalised : {None, "count", "total"}
-            "count": divided by its largest value, the logarithm of the number of bars, which is an
-            option of persim. "total": divided by the logarithm of the sum of their lengths, which
-            is an option of giotto-tda; the result depends on the unit of the values.
+            "count": divided by the largest possible value, the logarithm of the number of bars, as
+            persim offers. "total": divided by the logarithm of the sum of the lengths, as
+            giotto-tda offers; the result then depends on the unit of the values.
 
         Returns
         -------
@@ -226,7 +226,7 @@ class Summaries:
         dim : int
             The dimension of the bars.
         layers : int
-            How many.
+            The number of layers.
         resolution : int
             Number of values of the grid, including both ends of the range.
         range : pair of float, optional

@@ -71,5 +71,5 @@ class Rips(TransformerMixin):
         return self.transform(X, distance_matrix, metric)
 
     def plot(self, diagrams: Any = None, *args: Any, **kwargs: Any) -> None:
-        """Draws diagrams, by default the last ones; the arguments are those of `plot_diagrams`."""
+        """Draws diagrams, by default the last ones, with the arguments of `plot_diagrams`."""
         plot_diagrams(self.dgms_ if diagrams is None else diagrams, *args, **kwargs)

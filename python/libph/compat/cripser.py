@@ -58,11 +58,11 @@ def computePH(arr: ArrayLike, maxdim: int = 2, top_dim: bool = False, embedded: 
     -------
     ndarray
         One row per bar: dimension, birth, death, the three coordinates of the voxel that has the
-        birth value, and those of the voxel that has the death value (four coordinates each for
-        images with four axes). A bar that never dies has the largest double as its death, and zeros
-        as coordinates. A birth at -inf is minus the largest double. Voxels of the layer of
-        `embedded` have coordinates -1, or the extent of the image. H0 is sorted by death, other
-        dimensions by descending birth.
+        birth value, and the three coordinates of the voxel that has the death value (four
+        coordinates each for images with four axes). A bar that never dies has the largest double as
+        its death, and zeros as coordinates. A birth at -inf is minus the largest double. Voxels of
+        the layer of `embedded` have coordinates -1, or the extent of the image. H0 is sorted by
+        death, other dimensions by descending birth.
     """
     return _rows("computePH", arr, "vertices", maxdim, top_dim, embedded, run)
 

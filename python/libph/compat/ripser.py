@@ -5,8 +5,9 @@
 >>> ripser(np.array([[0, 0], [1, 0], [1, 1], [0, 1], [0, 1]]))["dgms"][1]
 array([[1.        , 1.41421354]])
 
-The numbers are those of ripser.py: rounded to single precision, in its order. ``dtype=np.float64``
-gives exact numbers. docs/how-to/coming-from.md lists where libph deliberately answers differently.
+The numbers are the same as in ripser.py: rounded to single precision, in its order.
+``dtype=np.float64`` gives exact numbers. docs/how-to/coming-from.md lists where libph deliberately
+answers differently.
 """
 from __future__ import annotations
 
@@ -64,7 +65,7 @@ def ripser(X: Any, maxdim: int = 1, thresh: float = np.inf, coeff: int = 2,
     metric : str or callable
         As in scikit-learn's `pairwise_distances`.
     n_perm : int, optional
-        Number of points to take, each the farthest from those before it.
+        Number of points to take. Each is the farthest from the points before it.
     dtype : {float32, float64}
         The precision of the filtration.
     **run
@@ -152,7 +153,7 @@ def _pairwise(X: Any, metric: Any, *others: Any) -> NDArray[Any]:
 def get_greedy_perm(X: Any, n_perm: int | None = None, distance_matrix: bool = False,
                     metric: Any = "euclidean"
                     ) -> tuple[NDArray[np.int64], NDArray[np.float64], NDArray[Any]]:
-    """Selects points, each the farthest from those before it; the first is point 0.
+    """Selects point 0, and then always the point that is farthest from the points before it.
 
     Parameters
     ----------
@@ -164,8 +165,8 @@ def get_greedy_perm(X: Any, n_perm: int | None = None, distance_matrix: bool = F
     Returns
     -------
     tuple of ndarray
-        The points; for each point, the radius within which it and those before it cover all points;
-        its distances to all points.
+        The points; for each point, the radius within which it and the points before it cover all
+        points; its distances to all points.
     """
     if distance_matrix or not hasattr(X, "shape"):
         X = _arrays.as_array(X, "X")

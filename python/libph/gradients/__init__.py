@@ -13,8 +13,8 @@ is returned:
 * among equally long edges of a simplex, the first one in the order of its vertices; among equal
   pixels, the first one in C order;
 * for a distance of 0, the derivative 0; among equal differences of coordinates, for
-  ``metric="chebyshev"``, the first one; among equally near points, for ``weights="dtm"``, those
-  with the smallest numbers.
+  ``metric="chebyshev"``, the first one; among equally near points, for ``weights="dtm"``, the
+  points with the smallest numbers.
 
 `libph.torch` offers the same as functions of torch.
 """

@@ -45,8 +45,8 @@ class MakesTables:
         Parameters
         ----------
         transform : {"default", "pandas"}, optional
-            "pandas": a DataFrame with the columns of `get_feature_names_out`; for diagrams and
-            barcodes, its cells hold them.
+            "pandas": a DataFrame with the columns of `get_feature_names_out`, whose cells are
+            numbers, diagrams or barcodes.
 
         Returns
         -------

@@ -41,7 +41,7 @@ class PersistenceClustering(ClusterMixin, BaseEstimator):
     k : int
         Number of points to which each point is joined, including itself.
     n_clusters : int, optional
-        Number of clusters; those with the longest bars are chosen.
+        Number of clusters. The peaks with the longest bars are chosen.
     min_persistence : float, optional
         Peaks with bars longer than this are clusters. With ``log(2)``, a peak must be more than
         twice as dense as the pass.

@@ -39,7 +39,7 @@ class Landscape(_OnGrid):
     Parameters
     ----------
     layers : int
-        How many.
+        The number of layers.
     resolution : int
         Number of values of the grid, including both ends of the range.
     range : pair of float or list of pairs, optional

@@ -22,7 +22,8 @@ class DiagramDistances(BesideFitted):
     Parameters
     ----------
     distance : {"wasserstein", "bottleneck", "sliced_wasserstein"}
-        Which distance; see `libph.wasserstein`, `libph.bottleneck`, `libph.sliced_wasserstein`.
+        The distance to compute; see `libph.wasserstein`, `libph.bottleneck`,
+        `libph.sliced_wasserstein`.
     order, ground : float
         For "wasserstein".
     relative_error : float
@@ -80,7 +81,7 @@ class DiagramKernels(BesideFitted):
     Parameters
     ----------
     kernel : {"scale_space", "weighted_gaussian"}
-        Which kernel; see `libph.diagram_kernels`.
+        The kernel to compute; see `libph.diagram_kernels`.
     sigma : float
         Width of the kernel: for "scale_space" in the squared unit of the values, for
         "weighted_gaussian" in the unit of the values.

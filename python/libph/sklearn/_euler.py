@@ -23,8 +23,8 @@ from ._persistence import list_of
 class EulerCurve(MakesTables, TransformerMixin, TakesDiagrams):
     """The Euler characteristic of images at the values of a grid, computed without bars.
 
-    It takes some nanoseconds per voxel, which suits many or huge images. Samples are images, which
-    may have different extents.
+    The computation takes a few nanoseconds per voxel, which suits many or huge images. Samples are
+    images, which may have different extents.
 
     Parameters
     ----------

@@ -47,7 +47,7 @@ class Statistics(Vectoriser):
 class Entropy(Vectoriser):
     """The persistent entropy of each diagram [Chintakunta et al. 2015].
 
-    The entropy of the shares of the bars in the sum of their lengths; 0 without bars.
+    It is the entropy of the shares of the bars in the sum of their lengths. Without bars, it is 0.
 
     Parameters
     ----------
@@ -57,9 +57,9 @@ class Entropy(Vectoriser):
     unit : {"nats", "bits"}
         Natural logarithms, or logarithms to the base 2, as in giotto-tda.
     normalised : {None, "count", "total"}
-        "count": divided by its largest value, the logarithm of the number of bars, which is an
-        option of persim. "total": divided by the logarithm of the sum of their lengths, which is
-        an option of giotto-tda; the result depends on the unit of the values.
+        "count": divided by the largest possible value, the logarithm of the number of bars, as
+        persim offers. "total": divided by the logarithm of the sum of the lengths, as giotto-tda
+        offers; the result then depends on the unit of the values.
 
     Examples
     --------

@@ -174,7 +174,7 @@ class RipsPersistence(_Persistence):
     metric, minkowski_p, threshold, weights, dtm_neighbors, field, collapse, approximation
         As in `libph.rips`.
     subsample : int, optional
-        Number of points to keep of each cloud, each the farthest from those before it.
+        Number of points to keep of each cloud. Each is the farthest from the points before it.
     min_persistence : float
         Bars with death - birth <= this value are left out.
     output : {"list", "giotto", "barcode"}

@@ -90,9 +90,9 @@ class DistanceToMeasure(ClassNamePrefixFeaturesOutMixin, TransformerMixin, BaseE
 class FarthestPoints(ClassNamePrefixFeaturesOutMixin, TransformerMixin, BaseEstimator):
     """Landmarks spread over all points by farthest-point sampling [Gonzalez 1985].
 
-    The first landmark is row 0; each further one is the point farthest from those before it. A
-    transformer of scikit-learn keeps all rows; therefore `transform` returns the distances to the
-    landmarks, and `points_` holds the selected rows. Inside a pipeline of clouds,
+    The first landmark is row 0; each further landmark is the point farthest from the landmarks
+    before it. A transformer of scikit-learn keeps all rows; therefore `transform` returns the
+    distances to the landmarks, and `points_` holds the selected rows. Inside a pipeline of clouds,
     ``RipsPersistence(subsample=n)`` selects points.
 
     Parameters
@@ -109,7 +109,7 @@ class FarthestPoints(ClassNamePrefixFeaturesOutMixin, TransformerMixin, BaseEsti
     indices_ : ndarray
         The rows of the landmarks.
     radii_ : ndarray
-        The distance of each landmark to the nearest of those before it; inf for the first.
+        The distance of each landmark to the nearest landmark before it; inf for the first.
     covering_radius_ : float
         Each point is at most this far from a landmark.
 

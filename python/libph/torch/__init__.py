@@ -8,8 +8,8 @@ A step towards points with a larger loop::
     (h1[:, 1] - h1[:, 0]).max().backward()
     X.data += 0.1 * X.grad
 
-The gradients are those of `libph.gradients`, at ties as well. They are exact for tensors of type
-float64; for float32 they are rounded. The computation runs on the CPU, wherever the tensor is.
+The gradients are the same as in `libph.gradients`, at ties as well. They are exact for tensors of
+type float64; for float32 they are rounded. The computation runs on the CPU, wherever the tensor is.
 There are no second derivatives.
 """
 from __future__ import annotations
@@ -76,7 +76,7 @@ def _diagrams(X: Any, function: Any, arguments: tuple[Any, ...], options: dict[s
 
 
 def rips(X: Any, **options: Any) -> list[Any]:
-    """The diagrams of points or distances, as functions of them.
+    """The diagrams of points or distances, as functions of the data.
 
     Parameters
     ----------

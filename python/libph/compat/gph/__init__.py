@@ -5,8 +5,8 @@
 >>> ripser_parallel(np.array([[0, 0], [1, 0], [1, 1], [0, 1], [0, 1]]))["dgms"][1]
 array([[1.       , 1.4142135]], dtype=float32)
 
-The numbers are those of giotto-ph: in single precision, in its order. ``dtype=np.float64`` gives
-exact numbers. docs/how-to/coming-from.md lists where libph deliberately answers differently.
+The numbers are the same as in giotto-ph: in single precision, in its order. ``dtype=np.float64``
+gives exact numbers. docs/how-to/coming-from.md lists where libph deliberately answers differently.
 """
 from __future__ import annotations
 
@@ -45,8 +45,8 @@ def ripser_parallel(X: Any, maxdim: int = 1, thresh: float = np.inf, coeff: int 
     ----------
     X : array_like or sparse matrix
         Points, one per row; with ``metric="precomputed"``, distances with births on the diagonal. A
-        dense matrix is read above the diagonal; a sparse matrix is read in both triangles, and the
-        upper one wins. Pairs that are not stored are never joined.
+        dense matrix is read above the diagonal; a sparse matrix is read in both triangles, and of
+        two entries the upper one counts. Pairs that are not stored are never joined.
     maxdim : int
         The highest dimension of homology.
     thresh : float

@@ -174,7 +174,7 @@ class FlagTree(Persistence):
             simplices = np.column_stack([simplices[s], v])
         np.fill_diagonal(matrix, 0)
         matrix = np.minimum(matrix, matrix.T)
-        # All edges, including those beyond the enclosing radius.
+        # All edges, including edges beyond the enclosing radius.
         options = {"metric": "precomputed", "threshold": limit, "weights": births}
         below = rips(matrix, max_dim=self._dimension - 1, min_persistence=-1, field=field,
                      **options)
