@@ -57,7 +57,7 @@ std::vector<Pair> pairs_of(const Complex& complex, int max_dim, std::int64_t fie
       Options{.max_dim = max_dim, .field = field, .engine = engine, .min_persistence = -1}));
 }
 
-/// The pairs without those of length 0. A class that never dies is kept, whatever its birth.
+/// The pairs of positive length. A class that never dies is kept, whatever its birth.
 inline std::vector<Pair> of_positive_length(std::vector<Pair> pairs) {
   std::erase_if(pairs,
                 [](const Pair& p) { return !p.death_cell.empty() && p.bar.death == p.bar.birth; });
@@ -177,8 +177,8 @@ void check_contract(const F& f, int top, std::int64_t field) {
   }
 }
 
-/// Compares the filtration's own apparent pairs with those found by a search of all facets and
-/// cofacets. The search uses a view of the filtration that hides its apparent pairs.
+/// A view of a filtration that hides its apparent pairs. check_apparent_pairs compares these pairs
+/// with the pairs that a search of all facets and cofacets of the view finds.
 template <Filtration F>
 struct WithoutApparent {
   using Cell = typename F::Cell;
@@ -226,8 +226,8 @@ void check_apparent_pairs(const F& f, int top) {
   }
 }
 
-/// At every value, the alternating sum of the numbers of cells equals that of the numbers of living
-/// bars, over all dimensions.
+/// Checks the Euler characteristic at every value: the alternating sum over all dimensions is the
+/// same for the numbers of cells and for the numbers of living bars.
 template <Filtration F>
 void check_euler(const F& f, const std::vector<Pair>& pairs) {
   std::map<double, long> change;
@@ -300,7 +300,7 @@ inline void check_collapse(const Rips& rips, int max_dim, std::int64_t field) {
   }
 }
 
-/// Checks that, whatever form is planned, the pairs are those of all edges, cell by cell.
+/// Checks that the pairs of the planned form equal the pairs of all edges, cell by cell.
 inline void check_forms(const Rips& rips, int max_dim, std::int64_t field) {
   const auto oracle = [&](int dim) {
     return with_all_edges(rips, dim,

@@ -120,7 +120,7 @@ void check_failure(ph_status status) {
   require(!words.empty() && words.find('\n') == std::string_view::npos, "an error has one line");
 }
 
-/// Compares bars with those of C++, and the cells as well if they were requested.
+/// Compares the bars with the bars from C++, and the cells as well if cells were requested.
 void check_bars(const ph_barcode* found, const Barcode& expected, bool cells) {
   require(ph_barcode_size(found) == expected.size(), "as many bars as from C++");
   const ph_bar* const bars = ph_barcode_bars(found);
@@ -158,7 +158,7 @@ void check(const Expected& expected, const ph_options& options, CallC&& call) {
   ph_barcode_free(found);
 }
 
-/// Numbers in memory with arbitrary strides, even negative ones, and nothing else between them.
+/// Numbers in memory with strides of either sign, for axes in any order, with or without gaps.
 template <class T>
 struct Strided {
   std::vector<T> memory;

@@ -40,7 +40,7 @@ bool is_diagram(const Bars& bars) {
 
 /// The cost of matchings of bars, by the definition.
 struct Cost {
-  double order, ground;  ///< if infinite, the cost is the largest cost of all pairs
+  double order, ground;  ///< exponents; an infinite order takes the largest cost of a pair
 
   long double apart(const Bar& a, const Bar& b) const {
     const auto between = [](long double x, long double y) { return x == y ? 0 : std::abs(x - y); };
@@ -91,8 +91,8 @@ long double by_all_matchings(const Bars& a, const Bars& b, const Cost& cost) {
   return std::isinf(cost.order) ? sum : std::pow(sum, 1.0L / cost.order);
 }
 
-/// True if sums of powers are neither infinite nor zero as doubles, because only then do digits
-/// have a meaning.
+/// True if sums of powers are neither infinite nor zero as doubles, because otherwise the results
+/// have no correct digits.
 bool is_moderate(const Bars& a, const Bars& b, double order) {
   constexpr double large = 1e150, small = 1e-150;
   const double most = std::isinf(order) ? large : std::pow(large, 1 / order),
@@ -140,14 +140,14 @@ void check_wasserstein(const Bars& a, const Bars& b, const WassersteinOptions& o
   require(found.lower <= found.value && found.lower >= 0, "bounds are none");
   if (!is_moderate(a, b, options.order)) return;
   const long double expected = by_all_matchings(a, b, {options.order, options.ground});
-  // The cost of pairing every bar with the diagonal: see WassersteinOptions.
+  // The cost of pairing every bar with the diagonal.
   long double scale = 0;
   const Cost cost{options.order, options.ground};
   for (const Bars* bars : {&a, &b})
     for (const Bar& bar : *bars)
       if (std::isfinite(bar.birth) && std::isfinite(bar.death))
         scale = cost.sum(scale, cost.power(cost.from_diagonal(bar)));
-  // Costs to the power of p agree up to 2e-15 of that cost.
+  // ph/distances.hpp promises that p-th powers agree to 2e-15 of this cost; this test allows 1e-13.
   const long double rounding = std::pow(1e-13L * scale, 1.0L / options.order);
   require(std::isinf(expected) ? found.value == expected
                                : found.value >= expected * (1 - 1e-9L) - rounding,

@@ -38,7 +38,7 @@ TEST(AlphaAdverse, PointsNearlyOnASphere) {
   EXPECT_EQ(bars.bars(2).size(), 1U);
 }
 
-// The eight corners of a cube are on a sphere only up to rounding: the signs must be those of the
+// The eight corners of a cube are on a sphere only up to rounding: the signs must be exact for the
 // rounded points.
 TEST(AlphaAdverse, GridsThatDoublesCannotHold) {
   for (const double step : {0.1, 1.0 / 3, 0.7}) {
@@ -58,8 +58,8 @@ TEST(AlphaAdverse, ManySimplicesOfNearlyOneValueAreInOrder) {
   EXPECT_NO_THROW(Alpha(on_sphere(20'000, 6)).listed());
 }
 
-// Compares bars with those of the standard reduction of the listed cells. The list refuses a face
-// that enters after a coface.
+// Compares the bars with the bars that another engine finds in the list of all cells. The list
+// refuses a face that enters after a coface.
 void check_adverse(const Points& points, std::size_t cells) {
   const Alpha alpha(points);
   EXPECT_EQ(alpha.top_dim(), 3);
@@ -117,7 +117,8 @@ TEST(AlphaAdverse, SquaresThatNoDoubleHolds) {
   EXPECT_NO_THROW(Alpha(times(uniform_points(20, 3, 2), 1e150), options));
 }
 
-// The triangle is nearly flat, and the radii are in units of the largest coordinate.
+// The triangle is nearly flat: even in units of the largest coordinate, the square of its radius
+// exceeds the range of doubles.
 TEST(AlphaAdverse, RadiiOfWhichNoDoubleHoldsTheSquare) {
   for (const bool weighted : {false, true}) {
     AlphaOptions options{.unit = AlphaOptions::Unit::squared};

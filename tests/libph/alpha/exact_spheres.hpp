@@ -16,7 +16,8 @@ namespace ph::test {
 using Integer = boost::multiprecision::cpp_int;
 using IntegerPoint = std::array<Integer, 3>;
 
-/// The unit 2^-bits: all doubles here are multiples of it, and thus also of its square.
+/// The least number of bits: coordinates are stored as multiples of 2^-bits, and weights as
+/// multiples of the square of 2^-bits.
 inline constexpr int kLeastBits = 540;
 
 inline int bits_of(double x) {

@@ -42,8 +42,7 @@ Alpha alpha_of(Generator& random, Index dim, int count) {
   return Alpha(points, {.period = std::vector<double>(static_cast<std::size_t>(dim), 1.5)});
 }
 
-// With engines for any complex, the representatives of loops are edges from a point to its own
-// images.
+// The representatives of the two loops are edges from the point to its own images.
 TEST(PeriodicChains, OfOnePoint) {
   const Barcode bars = persistence(Alpha(Points{{0, 0}}, {.period = {2, 3}}),
                                    {.field = 3, .representatives = Representatives::cycles});

@@ -287,8 +287,8 @@ TEST(CubicalComplexes, RefuseBrokenImages) {
 TEST(CubicalComplexes, CellsHaveDoubledCoordinates) {
   const Image image{{3, 2}, {5, 3, 4, 9, 2, 1}};
   const Barcode barcode = persistence(Cubical(image));
-  // The oldest voxel has the value 1 at (2, 1). The voxel with value 3 at (0, 1) is joined to it by
-  // way of 4, at (1, 0), or 9.
+  // The oldest voxel has the value 1 at (2, 1). The voxel with value 3 at (0, 1) is joined to it
+  // through the voxels with the values 5 and 4, or through the voxel with the value 9.
   ASSERT_EQ(bars_of(barcode), (std::vector<Bar>{{0, 1, kInf}, {0, 3, 5}}));
   EXPECT_EQ(barcode.cell_kind(), CellKind::grid);
   const auto numbers = [](const InputCell& cell) {

@@ -196,8 +196,8 @@ TEST(Bottleneck, OfManyCopies) {
     a.push_back({1, 1e6, 1e6 + 1 + i % 3});
     b.push_back({1, 1e6, 1e6 + 1 + i % 2});
   }
-  // None of the 1 000 bars of length 3 has a partner of the same length. Of the other bars, 500
-  // have no partner.
+  // None of the 1 000 bars of length 3 has a partner of the same length. A partner of length 2
+  // costs 1.
   EXPECT_EQ(bottleneck_distance(a, b), 1);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Structs that callers fill in are checked like files: whatever it is given, each struct or
-// constructor reports what it found. These tests should also run with sanitizers.
+// Structs that callers fill in are checked like files: for any content, each struct or constructor
+// reports what it found. These tests should also run with sanitizers.
 #include <gtest/gtest.h>
 
 #include <climits>
@@ -103,8 +103,8 @@ TEST(PublicStructs, BoundaryMatrix) {
          m.values = {0, 2, 1};
        }))},
   });
-  // An incidence may be any number. A column whose coefficients have no representable absolute
-  // value is not an edge between two vertices.
+  // An incidence may be any number, even INT_MIN, whose absolute value is not representable. A
+  // column with such an incidence is not an edge between two vertices.
   const auto odd = ExplicitComplex::from_boundary(edge([](auto& m) {
     m.incidences = {INT_MIN, INT_MAX};
   }));

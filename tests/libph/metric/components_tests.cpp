@@ -47,8 +47,8 @@ void expect_components_of_the_whole(const Data& data, const RipsOptions& options
 constexpr PointDistance kSearched[] = {PointDistance::euclidean, PointDistance::manhattan,
                                        PointDistance::chebyshev, PointDistance::minkowski};
 
-// One to five coordinates, copies, ties, and thresholds equal to distances. Some numbers are too
-// large to be squared.
+// Tests points with zero to five coordinates, copies, ties, and thresholds equal to distances. The
+// squares of some numbers are beyond the range of doubles.
 TEST(Components, OfPointsAreThoseOfTheWholeFiltration) {
   for_each_seed(12000, [](Generator& random, bool ties, std::int64_t) {
     Points points = random.points(random.integer(0, 22), random.integer(0, 5), ties);

@@ -267,7 +267,6 @@ TEST(RipsInputs, NamedDistances) {
   EXPECT_EQ(loop(PointDistance::hamming), (Loops{{1, 2}}));
 }
 
-// With 2^20 points, one word holds a cell of three vertices, and four words hold a cell of twelve.
 TEST(RipsInputs, MergingEqualPointsLosesNothingButBarsOfLengthZero) {
   for (std::uint64_t seed = 0; seed < 300; ++seed) {
     Generator random(seed);
@@ -312,6 +311,7 @@ TEST(RipsInputs, AMillionCopiesTakeNearLinearTime) {
   EXPECT_EQ(near.graph(RipsForm::distinct_edges).edge_count(), 32U) << "a grid of 7 x 3";
 }
 
+// With 2^20 points, one word holds a cell of three vertices, and four words hold a cell of twelve.
 TEST(RipsInputs, WideCellsWhereOneWordIsNotEnough) {
   std::vector<WeightedEdge> edges;
   const Simplices sphere = cross_polytope(3);

@@ -150,7 +150,7 @@ TEST(Atol, OfFewBars) {
                [&] { fit_atol(Spans{two}, {.centres = 3}); });
   expect_error(ErrorKind::bad_data, "different bars: found 0",
                [&] { fit_atol({}, {.centres = 1}); });
-  // The squares of the distances between these are 0.
+  // As a double, the square of the distance between the first two bars is 0.
   const Bars close = {{0, 0, 1}, {0, 5e-324, 1}, {0, 0, 1 + 0x1p-52}};
   EXPECT_EQ(fit_atol(Spans{close}, {.centres = 2, .most_rounds = 0}).centres.size(), 2U);
 }

@@ -54,7 +54,7 @@ TEST(Grids, AreFittedToBatches) {
   EXPECT_EQ(fit_image_frame(Spans{Bars{{0, 5, 7}}}, 3, 4), (ImageFrame{{4, 6, 3}, {0, 2, 4}}));
 }
 
-// Even where the estimate of a position is wrong, the result equals that of a search.
+// Even where the estimate of a position is wrong, the result equals the result of a search.
 TEST(Grids, PlacesAreThoseOfASearch) {
   std::mt19937 random(1);
   const Grid grids[] = {
@@ -171,7 +171,7 @@ TEST(Curves, KeepSmallBarsBesideLargeOnes) {
     ASSERT_NEAR(shape[i], test::silhouette_at(bars, 0, values[i]), 1e-15);
   const Bars scaled = {{0, -1e100, 1e100}, {0, 0, 1e-100}};
   std::vector<double> out(3);
-  silhouette(scaled, {-1e100, 1e100, 3}, 4, out);  // powers of 4 of the lengths would be infinite
+  silhouette(scaled, {-1e100, 1e100, 3}, 4, out);  // fourth powers of the lengths would be infinite
   EXPECT_EQ(out, (std::vector<double>{0, 1e100, 0}));
 }
 

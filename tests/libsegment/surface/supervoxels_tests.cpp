@@ -94,7 +94,7 @@ TEST(Spacing, SeedsAreThoseOfAGreedyPermutation) {
     GreedyLimits limits;
     limits.radius = spacing;
     const auto expected = greedy_permutation(points, limits, PointDistance::euclidean, 2);
-    std::vector<WeightedEdge> edges;  // a path, so that each of the others is one step from a seed
+    std::vector<WeightedEdge> edges;  // a path: only seeds are at distance 0 from a seed
     for (Index i = 1; i < points.rows(); ++i) edges.push_back({i, i - 1, 1.0});
     const std::vector<double> f =
         distance_to_seeds(points, edges, std::vector<double>(1500), spacing, default_context());

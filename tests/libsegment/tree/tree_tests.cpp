@@ -31,7 +31,7 @@ void expect_same(const SceneCut& a, const SceneCut& b) {
   EXPECT_EQ(a.segments, b.segments);
 }
 
-/// A box on a box, and next to them a box that a bar in front of it cuts in two.
+/// A box on another box, and next to them a third box, whose middle a bar in front of it hides.
 TableScene stack() {
   return TableScene({{{-0.2, -0.05, 0}, {0.0, 0.15, 0.08}},
                      {{-0.14, 0.0, 0.08}, {-0.06, 0.1, 0.2}},
@@ -190,8 +190,8 @@ TEST(DamagedTree, HeadersThatLie) {
   const double nan = std::nan("");
   for (const std::int64_t version : {1, 3})
     EXPECT_NE(refusal(with_word(bytes, 1, version)).find("version"), std::string::npos);
-  // The persistence of seams in units of noise; the numbers of surfaces, of removed surfaces, and
-  // of noise values.
+  // Word 25 is the persistence of seams in units of noise. Words 26 to 28 are the numbers of
+  // surfaces, of removed surfaces, and of noise values.
   EXPECT_NE(refusal(with_word(bytes, 25, -1.0)).find("seam"), std::string::npos);
   for (const std::size_t word : {26U, 27U, 28U})
     for (const std::int64_t lie : {std::int64_t{-1}, std::int64_t{2}, std::int64_t{1} << 40})
@@ -272,8 +272,7 @@ TEST(DamagedTree, ContentsThatCannotBe) {
       &kTreeNoVertex, sizeof kTreeNoVertex);
   EXPECT_TRUE(says(refusal(with_right_sum(bytes)), "points with a vertex"));
   EXPECT_TRUE(says(damaged([](SceneTree& t) { t.xyz[0] = test::kHole; }), "coordinate"));
-  // A point far from its voxel: to the side, high above the plane, or behind it. Also too few
-  // points.
+  // Moves a point far from its voxel: high above the plane, behind the plane, or to the side.
   const Vec3 n = s.tree.plane->normal;
   for (const double away : {1.0, -1.0, 1e30})
     EXPECT_TRUE(says(damaged([&](SceneTree& t) {

@@ -256,7 +256,7 @@ TEST(ImagesInFiles, RandomFilesAndFaults) {
   EXPECT_LT(refused, 10);
 }
 
-// Other computations need the whole image in memory, and are still refused.
+// Points must fit into memory, and an array that is too large is still refused.
 TEST(ImagesInFiles, OtherInputsDoNot) {
   const TempDir dir;
   const std::filesystem::path path = dir.write("c.npy", npy("<f4", numbers<float>()));
@@ -267,8 +267,8 @@ TEST(ImagesInFiles, OtherInputsDoNot) {
   }
 }
 
-// For such computations, images that take between a third of the remaining memory and all of it are
-// read and counted.
+// An input that takes more than a third of the remaining memory stays in its file until it is read
+// as points. Its bytes then count towards the limit.
 TEST(ImagesInFiles, OtherInputsAreCounted) {
   std::string text;
   while (text.size() < 600'000) text += "0.25 0.5 0.75\n";
