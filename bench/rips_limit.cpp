@@ -3,10 +3,10 @@
 // enclosing radius, and sorts the edges up to this radius by (value, u, v). compare_rips.py uses it
 // as the lower limit.
 //
-// It shares no code with libph and must not be tuned together with libph, because a yardstick must
-// keep its length. The sort is a radix sort from the lowest digit, with 11 bits per digit. The sort
-// is stable and edges are created in the order of (u, v), and therefore it only needs the 32 bits
-// of the value.
+// It shares no code with libph and must not be tuned together with libph, because a reference that
+// changes with libph would hide changes of libph. The sort is a radix sort from the lowest digit,
+// with 11 bits per digit. The sort needs only the 32 bits of the value, because the sort is stable
+// and edges are created in the order of (u, v).
 #include <algorithm>
 #include <array>
 #include <bit>

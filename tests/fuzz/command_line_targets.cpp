@@ -14,8 +14,8 @@
 namespace ph::fuzz {
 namespace {
 
-/// The lines of a text as command-line arguments. Like those of an operating system, none contains
-/// a NUL.
+/// The lines of a text as command-line arguments. As on a real command line, no argument contains a
+/// NUL.
 std::vector<std::string> words_of(std::string_view bytes, const char* program) {
   std::vector<std::string> words{program};
   while (!bytes.empty()) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Checks what must hold for every reader: it returns a result that is as promised, or fails with
-// one line that names the file.
+// Checks what must hold for every reader: it returns a result with the promised properties, or
+// fails with a message of one line that names the file.
 #include <algorithm>
 #include <optional>
 

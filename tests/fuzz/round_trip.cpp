@@ -13,7 +13,7 @@
 namespace ph::fuzz {
 namespace {
 
-/// A file in memory, which is written under the name of its descriptor.
+/// A file in memory. Writers open it by the path of its descriptor.
 class MemoryFile {
  public:
   MemoryFile() : descriptor_(memfd_create("written", MFD_CLOEXEC)) {
@@ -110,8 +110,8 @@ void write_and_read_again(const Barcode& barcode) {
     require(content_of(again(barcode, format)) == bars_of(barcode),
             "a barcode changes when it is written and read");
   }
-  // Digits are lost only when the bars are written with six digits for the first time. Each
-  // dimension has a line in the file, and therefore there may be only a few dimensions.
+  // Digits are lost only when the bars are written with six digits for the first time. The number
+  // of dimensions is limited, because the file has a line for each dimension.
   constexpr int kFewDimensions = 64;
   if (!barcode.empty() && barcode[barcode.size() - 1].dim > kFewDimensions) return;
   const Barcode rounded = again(barcode, BarcodeFormat::ripser);

@@ -60,7 +60,8 @@ void run_c(std::string_view bytes);
 // Only if alpha complexes are built: chooses points with arbitrary doubles; bars and simplices must
 // have the properties of an alpha complex.
 void run_alpha(std::string_view bytes);
-/// Chooses points. The signs and radii of their spheres must be those that exact numbers give.
+/// Chooses points. The signs and radii of their spheres must equal the signs and radii that exact
+/// integers give.
 void run_alpha_signs(std::string_view bytes);
 
 }  // namespace ph::fuzz

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Writes random small inputs, each with the barcode that libph computes for it, and pairs of
-// diagrams with their distance, as one JSON object per line. compare.py compares them with other
-// programs.
+// diagrams with their distance, as one JSON object per line. compare.py compares these results with
+// the results of other programs.
 #include <cstdlib>
 #include <fstream>
 #include <iostream>

@@ -75,7 +75,7 @@ class InputGenerator {
     for (int k = 0; k < dim; ++k) options.periodic.push_back(integer(0, 2) == 0);
     return options;
   }
-  /// The faces of some random simplices. The value of each is that of its youngest facet, or later.
+  /// The faces of some random simplices. Each simplex enters with its youngest facet, or later.
   SimplexList simplices(Index vertices, int top_dim, int count, bool ties) {
     std::set<std::vector<Index>> all;
     for (int i = 0; i < count; ++i) {

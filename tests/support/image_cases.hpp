@@ -68,8 +68,8 @@ inline ImageCase random_image_case(Generator& random) {
 }
 
 /// A random image of four or five axes, in which voxels may also be absent. The bars are the
-/// components, or those of the highest dimension but one, which exist where high voxels are among
-/// low ones.
+/// components, or the bars of the highest dimension but one. The latter exist where low voxels
+/// surround high voxels.
 inline ImageCase random_case_of_many_axes(Generator& random) {
   const int axes = random.integer(0, 3) == 0 ? 5 : 4, most = axes == 4 ? 4 : 3;
   const bool has_hollows = random.coin();
@@ -148,8 +148,8 @@ inline std::vector<Index> random_first_layers(Generator& random, int layers, int
   return first;
 }
 
-/// True if parts refuse the requested results: for volumes, results that include bars of dimension
-/// 1 or need them.
+/// True if parts refuse the requested results. Parts of volumes refuse results that include or need
+/// bars of dimension 1.
 inline bool is_refused(const ImageCase& c) {
   try {
     ImagePart(c.image, 0, 1, c.options);

@@ -102,7 +102,8 @@ inline Simplices suspension(const Simplices& base) {
   return s;
 }
 
-/// Two spaces that share only vertex 0. The homology above dimension 0 is the sum of both.
+/// Two spaces that share only vertex 0. The homology above dimension 0 is the direct sum of the
+/// homology of both spaces.
 inline Simplices wedge(const Simplices& a, const Simplices& b) {
   Simplices s = a;
   const Index shift = vertex_count(a) - 1;
@@ -114,7 +115,7 @@ inline Simplices wedge(const Simplices& a, const Simplices& b) {
   return s;
 }
 
-/// The lower-star filtration of a space. @param values of the vertices.
+/// The lower-star filtration of a space. @param values the values of the vertices.
 inline ExplicitComplex filtered(const Simplices& simplices, std::span<const double> values) {
   SimplexList list;
   for (const auto& simplex : simplices) list.add(simplex, 0);

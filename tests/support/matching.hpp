@@ -9,9 +9,10 @@
 
 namespace ph::test {
 
-/// Checks that two barcodes can be matched such that the birth and death of the late bar are at
-/// least those of the early bar x, and at most latest(x). Only bars that die by latest(birth) may
-/// be left out of either barcode. @return what is wrong; empty if they can be matched.
+/// Checks that two barcodes can be matched such that, in each pair, the late bar is born no earlier
+/// than the early bar and no later than latest(birth of the early bar). The same must hold for the
+/// deaths. Only bars that die by latest(birth) may be left out of either barcode. @return what is
+/// wrong; empty if they can be matched.
 /// @param latest a function that never decreases; a small tolerance is added for rounding.
 inline std::string late_matching_fault(const Barcode& early, const Barcode& late, int dim,
                                        const std::function<double(double)>& latest) {

@@ -135,8 +135,8 @@ void check_cocycle(const OrderedCells<F>& cells, const Barcode& bars, std::size_
   }
 }
 
-/// Checks all representatives, including those of bars of length 0, of all engines that compute
-/// representatives. The bars must be those of the oracle.
+/// Checks all representatives from every engine that computes representatives, even for bars of
+/// length 0. The bars must equal the bars of the oracle.
 template <Filtration F>
 void check_representatives(const F& f, int max_dim, std::int64_t field) {
   max_dim = std::min(max_dim, std::max(0, f.top_dim()));

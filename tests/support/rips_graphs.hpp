@@ -8,7 +8,7 @@
 
 namespace ph::test {
 
-/// The graph of all edges; each of several equal points is a vertex.
+/// The graph of all edges, in which equal points are separate vertices.
 inline const RipsGraph& all_edges(const Rips& rips) { return rips.graph(RipsForm::edges); }
 
 /// The graph that a computation with these options uses.
@@ -22,7 +22,7 @@ decltype(auto) with_all_edges(const Rips& rips, int max_dim, Use&& use) {
   return with_rips_filtration(all_edges(rips), max_dim, std::forward<Use>(use));
 }
 
-/// The same filtration, in which each of several equal points is a vertex.
+/// The same filtration, in which equal points are separate vertices.
 inline Rips without_merging(const Rips& rips) {
   RipsOptions options = rips.options();
   options.merge_equal_points = false;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Memory runs out at any moment inside the library: it throws std::bad_alloc or Error (resource),
-// leaks nothing, and leaves no file half written.
+// Tests the library when memory runs out at any moment: the library throws std::bad_alloc or Error
+// (resource), leaks nothing, and leaves no file half written.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -127,8 +127,8 @@ class Allocation : public testing::Test {
 
   /// Runs with the chosen allocations failing. @param at the number of a single allocation that
   /// fails.
-  /// @param from the number of the first allocation of those that all fail. @return true if the run
-  /// finished.
+  /// @param from the number from which on every allocation fails.
+  /// @return true if the run finished.
   static bool survives(const std::function<void()>& run, long at, long from) {
     fail_at = at;
     fail_from = from;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The notes of ph-segment: lengths or a camera that cannot be meant, and options without an effect.
+// The notes of ph-segment: lengths or a camera that the user cannot have meant, and options without
+// an effect.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -159,8 +160,8 @@ TEST_F(Notes, TheSmallerMarginOfThePlaneGoesFirst) {
   }
 }
 
-/// The message names only options of the chosen method: --distance belongs to the other method and
-/// would be refused.
+/// The message names only options of the chosen method: --distance belongs to method paper, and the
+/// other methods refuse it.
 TEST_F(Notes, OutOfMemoryNamesOptionsOfTheMethod) {
   for (const char* method : {"surface", "supervoxels", "paper"}) {
     const std::string options = std::string("scene.pcd --plane off --voxel 0.0005 --method ") +

@@ -91,7 +91,7 @@ TEST_F(Stream, APipeThatDoesNotWaitHasNoEndYet) {
   std::array<int, 2> ends{};
   ASSERT_EQ(pipe(ends.data()), 0);
   fcntl(ends[0], F_SETFL, O_NONBLOCK);
-  // Otherwise, the program would keep the pipe open as a writer.
+  // Without this flag, the program would inherit this end and keep the pipe open.
   fcntl(ends[1], F_SETFD, FD_CLOEXEC);
   std::thread writer([&] {
     for (const std::string_view some : {"in/0.p", "cd\nin/", "1.pcd\nin/2.pcd"}) {

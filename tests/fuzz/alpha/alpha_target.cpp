@@ -13,7 +13,7 @@ using test::Rational;
 
 Rational magnitude(const Rational& x) { return x < 0 ? Rational(-x) : x; }
 
-/// Checks that faces come before cofaces, and that the Euler characteristic is that of a ball.
+/// Checks that faces come before cofaces, and that the Euler characteristic is 1.
 /// @return true if there is any simplex.
 bool check_simplices(const Alpha& alpha) {
   long euler = 0, count = 0;
@@ -80,8 +80,8 @@ void check_definition(const Alpha& alpha, PointsView points, const std::vector<d
     });
 }
 
-/// True if the coordinates and weights have few digits: exact fractions of other numbers take
-/// seconds.
+/// True if the coordinates and weights have few digits: arithmetic with exact fractions of longer
+/// numbers takes seconds.
 bool is_of_few_digits(PointsView points, std::vector<double> numbers) {
   for (Index i = 0; i < points.rows(); ++i)
     for (Index k = 0; k < points.cols(); ++k) numbers.push_back(points(i, k));

@@ -1,2 +1,2 @@
 // SPDX-License-Identifier: MIT
-// Neither the name of its folder nor its own name is that of a test.
+// Neither the name of the folder nor the name of the file is the name of a test.

@@ -1,3 +1,3 @@
 // SPDX-License-Identifier: MIT
-// Makes a circle of folders: bytes/ includes this file.
+// Makes two folders include each other: a file in bytes/ includes this file.
 #include "libph/src/io/bytes/input.hpp"
