@@ -113,8 +113,8 @@ std::vector<OracleBar> oracle_bars(const std::vector<std::pair<Rational, Simplex
 /// A simplex is a set of points, stored as bits. It is in the complex if the Voronoi cells (power
 /// cells) of its points meet, and its value is the least power of a point in the intersection with
 /// respect to the points of the simplex. All such simplices are listed; for cospherical points, a
-/// triangulation has fewer. They form the nerve of the balls restricted to Voronoi cells, whose
-/// homology is that of the union of the balls.
+/// triangulation has fewer. The simplices up to a value form the nerve of the balls restricted to
+/// Voronoi cells, which has the homology of the union of the balls.
 class AlphaOracle {
  public:
   AlphaOracle(PointsView points, const std::vector<double>& weights) {
@@ -136,8 +136,8 @@ class AlphaOracle {
   /// The value of each simplex.
   const std::map<unsigned, Rational>& values() const { return values_; }
 
-  /// True if, among the centres of the spheres, there is one that is nearer to this point than to
-  /// all other points. For a hidden point, there is none.
+  /// True if the centre of some sphere has less power with respect to this point than with respect
+  /// to every other point. A hidden point has no such centre.
   bool is_ever_alone(std::size_t point) const {
     return std::ranges::any_of(spheres_, [&](const auto& s) { return s.on == 1U << point; });
   }

@@ -74,8 +74,8 @@ TEST(Alpha, CyclesAreCycles) {
   });
 }
 
-// With ties, the bars may name other cells than those of the oracle. A representative must still be
-// a cycle at its value.
+// With ties, the bars may name other cells than the oracle does. A representative must still be a
+// cycle at its value.
 TEST(Alpha, CyclesAmongTies) {
   for_each_seed(60, [](Generator& random, bool weighted, std::int64_t field) {
     const Cloud cloud = any_cloud(random, 25, weighted);
@@ -221,8 +221,8 @@ TEST(Alpha, CopiesJoinAtZero) {
 }
 
 TEST(Alpha, HiddenPointsAreNamed) {
-  // Up to the value 7.25, the power of the first point is less than that of the second. From 4.67
-  // on, the power of the third point is less than both.
+  // Up to the value 7.25, the power of the first point is less than the power of the second point.
+  // From 4.67 on, the power of the third point is less than both.
   const Alpha alpha(Points{{0, 0, 0}, {0.5, 0, 0}, {9, 0, 0}, {0, 0, 0}},
                     {.weights = {4, -3, 1, 3}, .unit = AlphaOptions::Unit::squared});
   EXPECT_EQ(std::vector<std::uint32_t>(alpha.hidden().begin(), alpha.hidden().end()),

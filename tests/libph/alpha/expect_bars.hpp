@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-// Compares bars with those of an oracle.
+// Compares bars with the bars of an oracle.
 #include <gtest/gtest.h>
 
 #include <vector>

@@ -109,8 +109,8 @@ class PeriodicOracle {
     return simplex;
   }
 
-  /// Finds the images that are at most this far from a point in the box. @return the index of the
-  /// point among them.
+  /// Finds the images whose squared distance to a point in the box is at most `squared`. @return
+  /// the index of the point among these images.
   std::size_t find_neighbours(std::size_t of, const Rational& squared) {
     neighbours_.clear();
     places_.clear();
@@ -201,8 +201,8 @@ class PeriodicOracle {
     return dot(to, to) - weights_of_places_[i];
   }
 
-  /// The point in the affine hull that has the same power with respect to all points; nothing for
-  /// dependent points.
+  /// The point in the affine hull that has the same power with respect to all points; nothing if
+  /// the points are affinely dependent.
   template <class Number, class AnyPoint>
   std::optional<std::vector<Number>> centre_of(const Places& set, const Number& flat,
                                                const std::vector<AnyPoint>& places,

@@ -62,7 +62,7 @@ PeriodicCloud any_periodic_cloud(Generator& random, Index dim, Index most, bool 
   return cloud;
 }
 
-/// Checks that the complex has as many classes that never die as the periodic space.
+/// Checks that the numbers of classes that never die are the Betti numbers of the periodic space.
 void expect_betti_numbers(const Barcode& bars, int closed, std::size_t components = 1) {
   static constexpr std::size_t binomials[4][4]{
       {1, 0, 0, 0}, {1, 1, 0, 0}, {1, 2, 1, 0}, {1, 3, 3, 1}};
@@ -264,8 +264,8 @@ TEST(Periodic, TranslationChangesNothing) {
   });
 }
 
-// Near the ends of axes that are not periodic, spheres are huge: two nearly flat layers, and points
-// far apart.
+// Tests nearly flat layers, and points that are far apart, because spheres are huge near the ends
+// of axes that are not periodic.
 TEST(Periodic, CylindersAndSlabs) {
   for_each_seed(16, [](Generator& random, bool is_flat, std::int64_t field) {
     Points points = random.points(200, 3, false);

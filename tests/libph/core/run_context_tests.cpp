@@ -41,8 +41,8 @@ TEST(MemoryBudgets, CountAndRefuse) {
   EXPECT_EQ(budget.peak(), 1000U);
 }
 
-// Under any limit, a computation gives the right answer or reports that memory is short; in the
-// second case it has freed everything.
+// Under any limit, a computation gives the right answer, or frees everything and reports that
+// memory is short.
 TEST(MemoryBudgets, HoldForEveryEngine) {
   Generator random(3);
   const Points points = random.points(24, 3, false);

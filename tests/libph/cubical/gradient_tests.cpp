@@ -78,8 +78,8 @@ TEST(Gradient, AgreeWithTheOracleCellByCell) {
   EXPECT_TRUE(is_enough(longer, std::size_t{3000})) << longer;
 }
 
-// Compares larger images, with loops of long boundaries and columns that are added, with the
-// boundary matrix.
+// Compares larger images with the reduction of the boundary matrix. Loops have long boundaries, and
+// columns are added to each other.
 TEST(Gradient, AgreeOnLargerVolumes) {
   for_each_seed(24, [&](Generator& random) {
     const std::vector<Index> extents{random.integer(10, 16), random.integer(10, 16),
@@ -319,12 +319,12 @@ TEST(Gradient, HolesTakeNoMemory) {
   const Image image = image_of<std::uint8_t>(random, extents, 250);
   for (const Construction construction : {Construction::vertices, Construction::cells}) {
     ThreadsContext context(1);
-    // The threshold keeps all but a tenth of the voxels out.
+    // The threshold leaves out nine tenths of the voxels.
     const Cubical cubical(image, {.construction = construction, .threshold = 25}, context);
     const std::size_t before = context.memory.used();
     persistence(cubical, {.max_dim = 0, .cells = false}, context);
-    // Memory per voxel for its star and its node in the graph; in addition, memory for the critical
-    // cells.
+    // Each voxel takes memory for its star and for its node in the graph, and each critical cell
+    // takes memory as well.
     EXPECT_LE(context.memory.peak() - before, std::size_t{18'000'000});
   }
 }

@@ -130,8 +130,8 @@ TEST(ManyAxes, CellsOrNotTheBarsAreTheSame) {
             std::vector<Bar>(without.begin(), without.end()));
 }
 
-// Under any limit, the computation gives the right answer or reports that memory is short, and in
-// that case everything is freed. A stop is obeyed at every stage.
+// Under any limit, the computation gives the right answer, or frees everything and reports that
+// memory is short. A stop is obeyed at every stage.
 TEST(ManyAxes, BudgetsAndStops) {
   const Image image = Generator(5).image({8, 9, 7, 8}, false);
   const auto run = [&](const RunContext& context) {

@@ -179,8 +179,8 @@ TEST(PartForecast, NoiseTakesWhatIsForeseen) {
         const Taken taken = taken_on_ranks(image, options, parts);
         EXPECT_GE(taken.file, forecast.file.low);
         EXPECT_LE(taken.file, forecast.file.high);
-        // The forecast counts the voxels of a mapped file. The measurement here does not count
-        // those of the image.
+        // The forecast counts the voxels of a mapped file. The measurement does not count the
+        // voxels of the image.
         EXPECT_GE(taken.memory + 8.0 * 64 * 64 * (64 / parts + 1), forecast.memory.low);
         EXPECT_LE(taken.memory, forecast.memory.high);
         EXPECT_GE(taken.sent, forecast.sent.low);

@@ -105,7 +105,7 @@ TEST(Slabs, AreTakenWhereMemoryIsShort) {
   }
 }
 
-// An image of zero bytes, which take no memory until they are written to.
+// An image whose bytes are all 0. The bytes take no memory until they are written to.
 Image zeros(std::vector<Index> extents) {
   std::size_t count = 1;
   for (const Index n : extents) count *= static_cast<std::size_t>(n);

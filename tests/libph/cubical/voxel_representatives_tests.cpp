@@ -51,8 +51,7 @@ TEST(VoxelRepresentatives, OfAllSmallShapes) {
   });
 }
 
-// A periodic axis with a single voxel, which is a circle: sets of voxels do not surround it, but
-// cycles go around it.
+// A periodic axis of one voxel is a circle: cycles go around it, but no set of voxels surrounds it.
 TEST(VoxelRepresentatives, ACircleOfOneVoxelIsGoneAroundByCycles) {
   const Image pair{{1, 2}, {1, 2}};
   const Barcode bars = persistence(Cubical(pair, {.periodic = {true}}),

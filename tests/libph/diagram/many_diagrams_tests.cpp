@@ -149,7 +149,7 @@ TEST(DiagramDistances, OfSomeFromOthers) {
   std::vector<Bars> some, others;
   for (int i = 0; i < 3; ++i) some.push_back(random_bars(random, 5 + random() % 100));
   for (int i = 0; i < 5; ++i) others.push_back(random_bars(random, 5 + random() % 100));
-  // This function is not symmetric, which shows the order of the arguments.
+  // The function is not symmetric, and therefore its values show the order of its arguments.
   const auto difference = [](std::span<const Bar> a, std::span<const Bar> b, const RunContext&) {
     return static_cast<double>(1000 + a.size()) - static_cast<double>(b.size());
   };

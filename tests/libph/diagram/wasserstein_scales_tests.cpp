@@ -55,8 +55,8 @@ struct Costs {
   }
 };
 
-// Tests the precision of prices: if every price were as coarse as that of the most expensive bar,
-// matchings of order above about 6 would be random.
+// Tests the precision of prices: if every price were as coarse as the price of the most expensive
+// bar, matchings of order above about 6 would be random.
 TEST(WassersteinScales, SmallDifferencesOfLongBars) {
   for_each_seed(3000, [](Generator& random, bool has_ties, std::int64_t) {
     static constexpr double orders[]{1, 2, 3, 4, 8, 16, 30};

@@ -290,7 +290,7 @@ TEST(Wasserstein, IsStable) {
 }
 
 // Copies, bars on the diagonal, and lengths of many magnitudes have made other programs loop
-// forever, or be wrong.
+// forever or return wrong distances.
 TEST(Wasserstein, OfManyCopies) {
   const Bars million(1'000'000, {1, 0.25, 0.75}), half(500'000, {1, 0.25, 0.75});
   for (const double p : {1.0, 2.0}) {

@@ -165,8 +165,7 @@ TEST(CloudPart, HasTheComponentsOfAllPairs) {
   EXPECT_TRUE(is_enough(parts, std::size_t{20000})) << parts;
 }
 
-// There are enough points that most of a cloud is far from a block: the points that a part leaves
-// out matter.
+// Most points of such a cloud are far from any one block, and a part leaves them out.
 TEST(CloudPart, OfManyPoints) {
   for_each_seed(40, [&](Generator& random, bool ties, std::int64_t) {
     Points points = random_cloud(random, 20000, false);
@@ -192,11 +191,11 @@ TEST(CloudPart, LeavesOutWhatIsFar) {
   one.graph(RipsForm::forest, of_one);
   const CloudPart part(points, 3, 16, {}, of_part);
   EXPECT_LT(of_part.memory.peak(), of_one.memory.peak() / 6);
-  // A part takes about 16 bytes per point of its own, and a little more.
+  // A part takes about 16 bytes per point of its block, and a little memory in addition.
   EXPECT_LT(part.bytes().size(), 200000 / 16 * 27);
 }
 
-// Coordinates with squares beyond the range of doubles, in all parts or in only one.
+// The squares of coordinates are beyond the range of doubles, in all parts or in only one.
 TEST(CloudPart, OfCoordinatesOfAnySize) {
   for_each_seed(600, [&](Generator& random, bool ties, std::int64_t) {
     Points points = random_cloud(random, 40, ties);
@@ -312,8 +311,8 @@ TEST(CloudPart, StopsAndKeepsToItsMemory) {
   expect_error(ErrorKind::resource, "memory", [&] { CloudPart(points, 0, 2, {}, small); });
 }
 
-// A part of another cloud that claims to belong to this cloud: it joins fewer points or other
-// points.
+// Replaces a part by a part of another cloud that claims to belong to this cloud. The replacement
+// joins fewer points or other points, which is found in nearly all cases.
 TEST(CloudPart, FindsEdgesThatAreMissing) {
   constexpr std::size_t fingerprint = 40, bytes_of_it = 8;
   int found = 0, counted = 0, all = 0;

@@ -99,8 +99,8 @@ void check_tree(const MergeTree& tree, const std::vector<double>& births,
       EXPECT_EQ(tree.merges[static_cast<std::size_t>(merge)].value, death);
     }
   }
-  // The same holds for branches. Each branch joins another one that is at least as old and dies no
-  // sooner.
+  // There is one branch for each class. A branch that dies joins another branch that is at least as
+  // old and dies no sooner.
   const std::vector<Branch> branches = tree.branches();
   std::vector<std::pair<double, double>> ends, all;
   for (const auto& c : classes) all.emplace_back(c.birth, c.death);

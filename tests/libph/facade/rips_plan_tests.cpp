@@ -219,7 +219,7 @@ TEST(RipsFacts, AreThoseOfTheForm) {
   EXPECT_EQ(sample.covering_radius, 1);
 }
 
-// ---- that they agree
+// ---- agreement of all forms
 
 std::vector<Pair> pairs_of_form(const Rips& rips, RipsForm form, int max_dim, std::int64_t field,
                                 Engine engine) {
@@ -388,7 +388,7 @@ TEST(RipsChoices, ThatMakeNoSenseAreRefused) {
   expect_error(ErrorKind::usage, "all distances", [&] { Rips(some, {.approximation = 1}); });
 }
 
-// ---- estimates of what does not fit
+// ---- estimates of forms that do not fit into memory
 
 /// The approximate number of pairs within a distance.
 double pairs_within(const Points& points, double limit) {
@@ -433,7 +433,8 @@ TEST(RipsEstimates, NeverExceedTheMemoryLimit) {
     EXPECT_EQ(e.cells[0], 20'000);
     EXPECT_EQ(e.counted_dims, 1) << "edges are estimated";
     EXPECT_FALSE(e.built.edges);
-    // The enclosing radius of a sample of the points is at least that of all points.
+    // The estimate considers only sampled points as centres, and therefore its radius is at least
+    // the enclosing radius.
     EXPECT_GT(e.cells[1], 0.95 * of_all);
     EXPECT_LT(e.cells[1], 1.25 * of_all);
     EXPECT_GT(e.bytes_low, 0.85 * 16 * of_all);

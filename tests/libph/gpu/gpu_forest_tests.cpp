@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The forest that a GPU finds equals that of the CPU, edge for edge and bit for bit.
+// The forest that a GPU finds equals the forest that the CPU finds, edge for edge and bit for bit.
 #include <cmath>
 #include <cstring>
 

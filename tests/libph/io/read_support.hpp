@@ -44,8 +44,8 @@ std::string bad_data(F&& f) {
   return {};
 }
 
-/// Calls `read(Input)` on every proper prefix of `bytes`. It must throw bad_data, or succeed where
-/// `complete(length)` says that the prefix is a complete input.
+/// Calls `read(Input)` on every proper prefix of `bytes`. `read` must throw bad_data, or succeed
+/// where `complete(length)` says that the prefix is a complete input.
 template <class Read, class Complete>
 void check_prefixes(const std::string& bytes, const std::string& name, Read read,
                     Complete complete) {

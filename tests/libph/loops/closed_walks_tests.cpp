@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Closed walks of cycles of edges, both of chains and of the bars of images and other complexes:
-// the sum of the walks is the chain.
+// Closed walks of cycles of edges: checks that the walks of a chain, or of the representative of a
+// bar, add up to the chain.
 #include <gtest/gtest.h>
 
 #include <algorithm>

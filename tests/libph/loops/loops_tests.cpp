@@ -223,7 +223,7 @@ TEST(Loops, OfSparseRipsFiltrations) {
   EXPECT_TRUE(is_enough(counts.bars, 20)) << counts.bars;
 }
 
-// Two rings joined by a tube: one bar is only represented by the difference of two walks.
+// Two rings joined by a tube: only the difference of two walks represents one of the bars.
 TEST(Loops, MayNeedTwoWalks) {
   Points points(16, 3);
   for (Index i = 0; i < 8; ++i) {

@@ -12,7 +12,7 @@
 namespace ph::test {
 namespace {
 
-// A point with tied coordinates belongs to one of the sides as well.
+// A point with tied coordinates also belongs to exactly one side of a split.
 TEST(SampleTree, PointsOfTheSampleLieInTheirCells) {
   for_each_seed(300, [](Generator& random, bool ties, std::int64_t) {
     const Points points = random.points(random.integer(1, 100), random.integer(1, 4), ties);

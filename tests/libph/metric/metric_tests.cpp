@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Distances: compares with values computed by hand, at the limits of the range of doubles, and near
-// pairs with all pairs.
+// Compares distances with values computed by hand, even at the limits of the range of doubles, and
+// near pairs with all pairs.
 #include <limits>
 #include <numeric>
 

@@ -176,8 +176,8 @@ TEST(SparseRipsFiltrations, KeepWhatTheyPromise) {
 }
 
 // Computes the edges by the definition. The balls of two points stop growing at their largest
-// diameters. The value of an edge is that at which its two balls meet. There is no edge if they
-// meet too late.
+// diameters. The value of an edge is the value at which its two balls meet. There is no edge if the
+// balls meet too late.
 TEST(SparseRipsFiltrations, HaveTheEdgesThatTheySay) {
   std::size_t missing = 0, late = 0;
   for_each_seed(500, [&](Generator& random, bool ties, std::int64_t) {

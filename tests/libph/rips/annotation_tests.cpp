@@ -106,7 +106,7 @@ void check_dead_generators(const K& field, Generator& random) {
   std::pmr::memory_resource* memory = std::pmr::get_default_resource();
   DeadGenerators<K> dead(field, memory);
   const auto is_dead = [&](std::size_t g) { return dead.contains(static_cast<std::uint32_t>(g)); };
-  // Number of terms: relations are lists, or rows of bits over Z/2.
+  // With few terms, relations are lists. With many terms, relations over Z/2 are rows of bits.
   const int most = random.coin() ? 8 : 100;
   const auto random_vector = [&](bool of_the_living) {
     Coefficients v(count, field.from_int(0));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Cofacets of Rips complexes that are larger than those of the conformance suite, with several
-// blocks of vertices, and with columns whose limit rises many times.
+// Cofacets of Rips complexes that are larger than the complexes of the conformance suite, with
+// several blocks of vertices, and with columns whose limit rises many times.
 #include <map>
 #include <set>
 

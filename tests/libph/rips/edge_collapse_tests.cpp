@@ -120,7 +120,7 @@ TEST(EdgeCollapse, MovesEdgesToLaterValuesOfTheGraph) {
   EXPECT_TRUE(is_enough(moved, std::size_t{1000})) << moved;
 }
 
-// One pass is not enough: it leaves dominated edges among those that it has already checked.
+// One pass is not enough: it leaves dominated edges among the edges that it has already checked.
 TEST(EdgeCollapse, GoesOnUntilLittleIsDominated) {
   for_each_seed(6, [](Generator& random, bool, std::int64_t) {
     const Rips rips(random.points(120, 3, false));

@@ -55,10 +55,10 @@ TEST(LinkVolumes, OfJoins) {
     switch (random.integer(0, 2)) {
       case 0:
         sizes = {random.integer(4, 6), random.integer(4, 6)};
-        break;  // for two circles
+        break;  // the join of two circles
       case 1:
         sizes = {random.integer(2, 4), random.integer(6, 8)};
-        break;  // for points and a sphere
+        break;  // the join of points and a sphere
       default:
         sizes = {2, 2, random.integer(2, 3), random.integer(2, 3)};
     }

@@ -43,7 +43,7 @@ StepFunction curve_of(const std::map<double, std::int64_t>& changes) {
   return curve;
 }
 
-/// Checks that the curve is that of the bars, on its own steps and on grids, for any number of
+/// Compares the curve with the curve of the bars, at its own steps and on grids, for any number of
 /// threads.
 void check(const Image& image, const CubicalOptions& options) {
   const Cubical cubical(image, options);

@@ -81,7 +81,7 @@ TEST(Statistics, AreTheirDefinitions) {
 TEST(Statistics, OfKnownBars) {
   const std::vector<double> four =
       statistics_of({{0, 0, 4}, {0, 1, 2}, {0, 3, 5}, {0, 9, 9}, {0, 0, 1}});
-  // The births 0, 0, 1, 3; the expected values are those of NumPy.
+  // The births 0, 0, 1, 3; NumPy gives the expected values.
   EXPECT_EQ(four[0], 1);
   EXPECT_DOUBLE_EQ(four[1], std::sqrt(1.5));
   EXPECT_EQ(four[2], 0.5);
@@ -159,7 +159,7 @@ TEST(Lengths, AreTheLargest) {
   EXPECT_EQ(five, (std::vector<double>{4, 2, 1, 0, 0}));
 }
 
-/// The density that all bars of a diagram have together at a point.
+/// The sum of the densities of all bars at a point.
 double density(const Bars& bars, double sigma, double power, double x, double y) {
   double sum = 0;
   for (const Bar& bar : bars) {
@@ -207,7 +207,7 @@ TEST(Images, HaveAllOfABarThatIsInside) {
   double sum = 0;
   for (const double x : out) sum += x;
   EXPECT_NEAR(sum, 1, 1e-14);
-  // A distribution narrower than a pixel lies in a single pixel: the one with birth 0.005 and
+  // A distribution narrower than a pixel lies in a single pixel: the pixel with birth 0.005 and
   // length 1.9.
   persistence_image(Bars{{0, 0.005, 1.905}}, frame, 1e-9, 0, out);
   for (std::size_t i = 0; i < out.size(); ++i) ASSERT_EQ(out[i], i == 47 * 100 ? 1 : 0) << i;
@@ -220,7 +220,7 @@ TEST(Images, HaveAllOfABarThatIsInside) {
   EXPECT_EQ(out, std::vector<double>(5000));
   persistence_image({}, frame, 0.01, 1, out);
   EXPECT_EQ(out, std::vector<double>(5000));
-  // So wide that no mass is left in any pixel.
+  // The Gaussian is so wide that no pixel has any mass left.
   persistence_image(Bars{{0, 0.5, 1.5}}, frame, 1e300, 1, out);
   for (const double x : out) ASSERT_NEAR(x, 0, 1e-300);
 }

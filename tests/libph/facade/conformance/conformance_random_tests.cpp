@@ -80,7 +80,7 @@ TEST(RandomConformance, AnyNumberOfThreads) {
   });
 }
 
-// Long columns that take pivots from each other. The bars must equal those of one thread, which
+// Long columns take pivots from each other. The bars must equal the bars from one thread, which
 // runs the sequential algorithm.
 TEST(RandomConformance, ThreadsOnManyColumns) {
   for_each_seed(8, [](Generator& random, bool ties, std::int64_t field) {
@@ -93,7 +93,8 @@ TEST(RandomConformance, ThreadsOnManyColumns) {
   });
 }
 
-// Distances of many magnitudes are in many bins even if they are few. Some bins are never sorted.
+// If distances differ by orders of magnitude, even a few distances lie in many bins. Some bins are
+// never sorted.
 TEST(RandomConformance, LinkStopsWhereNothingHappens) {
   std::size_t late = 0;
   for_each_seed(20000, [&](Generator& random, bool ties, std::int64_t field) {
@@ -144,8 +145,8 @@ TEST(RandomConformance, LinkOfManyVertices) {
   });
 }
 
-// Many classes of H1, with a low limit for "many": cocycles are kept as formal sums from the start,
-// and are solved at once or later.
+// The limits are low: cocycles are kept as formal sums from the start, and relations are solved at
+// once or later.
 TEST(RandomConformance, LinkFormally) {
   std::size_t finite = 0;
   for_each_seed(8000, [&](Generator& random, bool ties, std::int64_t) {

@@ -178,8 +178,8 @@ TEST(DegenerateClouds, SpreadsAtTheEndsOfTheRange) {
   EXPECT_EQ(bars[6].birth, 1e-300);
 }
 
-// A million copies of one point have 5 * 10^11 edges. Within a budget, the result is an immediate
-// error; the machine is not overloaded.
+// A million copies of one point have 5 * 10^11 edges. Under a memory limit, the call must return or
+// fail within seconds.
 TEST(DegenerateClouds, AMillionDuplicatesStayWithinTheBudget) {
   const Points same = to_points(PointMatrix::Constant(1000000, 3, 2.0));
   RunContext context;

@@ -68,8 +68,8 @@ TEST(KnownSpaces, SpheresUpToDimensionFour) {
 
 // ---- Vietoris-Rips
 
-// Adamaszek & Adams, The Vietoris-Rips complexes of a circle: the complex is a circle as long as
-// edges are shorter than a third of the circle.
+// Adamaszek & Adams, The Vietoris-Rips complexes of a circle: the complex is homotopy equivalent to
+// a circle as long as edges are shorter than a third of the circle.
 TEST(KnownSpaces, RipsOfACircle) {
   for (const Index n : {4, 5, 6, 7, 9, 12}) {
     const Rips rips(circle(n));

@@ -53,7 +53,7 @@ TEST(ReadBarcode, JsonTellsOfVoxelsByRuns) {
                              R"("voxels": [[2, 3], [7, 1], [9, 1]]})"));
   EXPECT_TRUE(
       contains(text, R"("birth_voxel": [1, 2], "death_voxel": null, "representative": [{)"));
-  // Of representatives, only the cells of the bars are read back.
+  // The cells of the bars are read back, but the representatives are not.
   const Barcode read = back(text);
   EXPECT_EQ(read.representatives(), Representatives::none);
   EXPECT_EQ(numbers(read.birth_cell(0)), (std::vector<Index>{0, 4}));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Tests of what exists only on POSIX systems: FIFOs, and files without read permission.
+// Tests files that exist only on POSIX systems: FIFOs, and files without read permission.
 #include <sys/stat.h>
 #include <unistd.h>
 

@@ -249,8 +249,8 @@ TEST(Camera, PresetsHaveTheFieldsOfViewThatArePublished) {
   for (const auto& [name, camera, images] : camera_presets()) {
     const Intrinsics& k = camera.intrinsics;
     EXPECT_FALSE(images.empty()) << name;
-    // For Kinect v1 and Xtion, the focal length is that of the colour camera, 525 pixels, because
-    // depth is registered to it.
+    // For Kinect v1 and Xtion, the focal length is the 525 pixels of the colour camera, because
+    // depth is registered to this camera.
     const bool realsense = name.starts_with("realsense"), second = name == "kinect-v2";
     EXPECT_NEAR(degrees(camera.width, k.fx), realsense ? 69.4 : second ? 70.6 : 62.7, 0.7) << name;
     EXPECT_NEAR(degrees(camera.height, k.fy), realsense ? 42.5 : second ? 60 : 49.1, 0.3) << name;

@@ -8,7 +8,7 @@
 
 namespace ph::test {
 
-/// A cloud with fields of every type and with counts above one, organised, with holes and extreme
+/// An organised cloud with fields of every type, fields of several numbers, holes and extreme
 /// numbers.
 inline Cloud motley(Index width, Index height, bool wide_integers = true) {
   Cloud cloud;

@@ -353,7 +353,8 @@ TEST(ReadDepth, RefusesMoreThanOneChannel) {
 
 TEST(CloudFromDepth, CountsWhatCannotBe) {
   const Image depth{{1, 3}, {-1.0, 1.0, 1.0}};
-  // The pixels are at -1, 0 and 1 focal lengths from the centre. The lens shows only up to 0.7.
+  // The pixels are at -1, 0 and 1 focal lengths from the centre. The lens has no rays beyond 0.7
+  // focal lengths.
   const Camera camera{{1, 1, 1, 0}, 3, 1, {Lens::Model::polynomial, {-0.3}}};
   DepthCounts counts;
   const std::vector<float> xyz = cloud_from_depth(depth, {}, camera, 1, &counts).xyz();

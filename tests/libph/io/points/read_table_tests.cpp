@@ -47,8 +47,8 @@ TEST(ReadTable, ChoosesColumns) {
   const auto points = [&](std::vector<std::string> columns) {
     return std::get<Points>(any(text, {.columns = std::move(columns)}).data);
   };
-  // A line with a number is a header if it contains a requested name. The name 2 may mean either a
-  // name or a position.
+  // A line with a number is a header if it contains a requested name. The request "2" is refused,
+  // because it may mean a name or a position.
   EXPECT_EQ(points({"x"}), (Points{{1}, {4}}));
   EXPECT_TRUE(fails_with(ErrorKind::usage, [&] { points({"x", "2"}); }));
   EXPECT_TRUE(fails_with(ErrorKind::usage, [&] { points({"z"}); }));
