@@ -102,7 +102,7 @@ TEST_P(BadInput, NoPlane) {
 
 TEST_P(BadInput, SeveralPlanes) {
   // A shelf above the table: the plane with the most points is removed, and the other plane is a
-  // segment. Its points are so close to each other that their voxels touch.
+  // segment. The points of the shelf are so close to each other that their voxels touch.
   const TableScene scene({{{-0.5, 0.2, 0.0}, {0.5, 0.45, 0.15}}, {{-0.1, -0.2, 0}, {0, -0.1, 0.1}}},
                          2);
   const Segmentation s = segmented(scene.xyz());
@@ -159,7 +159,7 @@ TEST_P(BadInput, MetresForMillimetresAreACrumb) {
 
 TEST_P(BadInput, AbsurdFocalLengths) {
   const std::vector<float> xyz = TableScene::two_boxes().xyz();
-  // A factor for x and y, as a wrong focal length causes.
+  // Scales x and y, as a wrong focal length does.
   for (const double factor : {1e-9, 1e-3, 50.0, 1e3, 1e9}) {
     std::vector<float> stretched = xyz;
     for (std::size_t i = 0; i < stretched.size(); ++i)

@@ -108,8 +108,8 @@ TEST_P(Invariance, AllPointsEqual) {
   EXPECT_FALSE(s.tree.plane);
 }
 
-// The pipeline runs on one thread, whatever number of threads is requested, and this test confirms
-// it. Only the homology of segments uses several threads.
+// The requested number of threads must not change the result. The pipeline runs on one thread, and
+// only the homology of segments uses several threads.
 TEST_P(Invariance, Threads) {
   const std::vector<float> xyz = cluttered();
   const Segmentation s = segment(CloudView{xyz, {}});

@@ -37,9 +37,9 @@ struct Block {
 };
 
 /// A camera 1 m from a table, looking down at 45 degrees. The table's coordinates are x right, y
-/// away and z up, with the origin in its middle. The picture has 320 x 240 pixels, and the axes of
-/// the cloud are those of the camera (x right, y down, z forward). Rays that miss the table (1.2 m
-/// x 1 m) become holes. So do rays that graze the left or right side of a box, as with real
+/// away and z up, with the origin in its middle. The picture has 320 x 240 pixels, and the cloud
+/// has the axes of the camera (x right, y down, z forward). Rays that miss the table (1.2 m x 1 m)
+/// become holes. Rays that graze the left or right side of a box become holes as well, as with real
 /// sensors.
 class TableScene {
  public:

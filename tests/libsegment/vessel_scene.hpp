@@ -12,7 +12,7 @@
 namespace ph::segment::test {
 
 /// An upright wall on a circle or a part of it: a bowl, a cup, a bent sheet. Angles are in degrees,
-/// and 90 points away from the sensor.
+/// and an angle of 90 degrees points away from the sensor.
 struct Vessel {
   double x = 0, y = 0, radius = 0.08, height = 0.06;
   double from = 0, to = 360;

@@ -142,7 +142,7 @@ TEST(LabelTracker, WhatAnObjectStandsOnIsNamedAsInTheFrame) {
   const Frame wrong(swapped, kNoWall, {kOnTable, on_first});
   EXPECT_EQ(tracker.update(wrong.tree, wrong.cut), (Labels{2, 1}));
   EXPECT_EQ(tracker.standings(), (std::vector{on_second, kOnTable}));
-  // The object on which it stood is missing. In this case, the current frame decides.
+  // The lower object is missing. In this case, the current frame decides.
   const Frame alone({0, 0, 1, 0, 0, 0, 1, 0}, kNoWall, {kNowhere});
   EXPECT_EQ(tracker.update(alone.tree, alone.cut), Labels{2});
   EXPECT_EQ(tracker.standings(), (std::vector<Standing>{{Role::object, {}}}));

@@ -113,7 +113,7 @@ TEST(Surfaces, AWallIsNoObject) {
     EXPECT_EQ(segment.role, Role::object);
     EXPECT_EQ(segment.on, (StandsOn{1, 0}));
   }
-  // A wall in one cut is not a segment in the other.
+  // No cut of the tree makes the wall a segment.
   const std::string tree = tree_bytes(s.tree);
   const SceneTree again = read_tree(Input::view(tree, "tree"));
   EXPECT_EQ(again.surfaces, s.tree.surfaces);

@@ -58,8 +58,8 @@ TEST(Circle, EachSetHasTheSameWeight) {
   }
 }
 
-// The circle fitted to a line is arbitrary, but a line never covers more than half of it. A rim
-// needs more.
+// The circle fitted to a line is arbitrary, but a line never covers more than half of the circle. A
+// rim must cover more.
 TEST(Circle, ALineIsOnHalfOfItsCircleAtMost) {
   for (int degrees = 0; degrees < 180; ++degrees) {
     const Eigen::Vector2d along(std::cos(degrees * kPi / 180), std::sin(degrees * kPi / 180));
