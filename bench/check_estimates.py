@@ -6,9 +6,9 @@ check_estimates.py build/release --data FOLDER
 
 For each row, the script compares the predicted interval of memory with the additional memory of the
 run: its peak resident memory minus the peak of a program that only starts. It also compares the
-predicted with the counted numbers of cells. Small pages are used, because a large page for the
-first bytes would hide how much memory the run needs. The exit code is 1 if a peak lies outside its
-interval or a number of cells is off by more than a factor of 2.
+predicted with the counted numbers of cells. The program that only starts gets small pages, because
+a large page for its first bytes would hide how much memory the run needs. The exit code is 1 if a
+peak lies outside its interval or a number of cells is off by more than a factor of 2.
 """
 import argparse
 import pathlib

@@ -19,7 +19,7 @@ it is measured. Starting a door takes longer than starting the program, mainly b
 imports. This difference is measured on ten points and subtracted. The doors must find the program's
 bars: the same number in each dimension, with the same total length.
 
-A ratio is ≈ 1 if the door and the program differ by at most 8 MB, or by at most 0.02 s and a
+A ratio is ≈ 1 if the door and the program differ by at most 8 MB, or by at most 0.02 s plus a
 quarter of the CPU time that was subtracted: smaller differences are noise. `--check` exits with 1,
 and names the rows, if a door takes more than CPU or MEMORY times as much as the program and the
 difference exceeds the noise in each of three measurements. The script always exits with 1 if a door
@@ -108,7 +108,7 @@ def rows_of(scale=1.0, large=False):
 
 
 class Files:
-    """The files of one input: one in the format of each door."""
+    """The files of one input: NPY, and plain doubles for the door in C."""
 
     def __init__(self, folder, name, array, is_matrix):
         self.array = folder / f"{name}.npy"

@@ -10,7 +10,7 @@ import tempfile
 from dataclasses import dataclass
 
 SHORT = 0.05  # s: a shorter run is repeated often
-LONG = 10.0  # s: a longer run is not repeated
+LONG = 10.0  # s: a program whose runs have taken this time is not run again
 WALL_OVER_CPU = 6  # the wall-clock limit of a run, as a multiple of its CPU limit
 PR_SET_THP_DISABLE = 41  # from <linux/prctl.h>; the setting survives execve
 
@@ -66,8 +66,8 @@ def _outcome(status, messages):
 class Meter:
     """Runs programs through `bench_run`, which reports the cost of each run.
 
-    Each program is run `repeat` times, or once if it takes long. A short program is repeated until
-    its runs have taken `together` seconds.
+    Each program is run `repeat` times, or until its runs have taken LONG seconds. A short program
+    is repeated until its runs have taken `together` seconds.
 
     """
 

@@ -27,7 +27,7 @@ TABLE = re.compile(r"(<!-- table: (\S+) -->\n).*?(<!-- end -->\n)", re.DOTALL)
 
 
 def read(path):
-    """@return the columns of the table, and those of its rows that are shown."""
+    """@return the columns of the table, and the rows that are shown."""
     with open(path, newline="", encoding="utf-8") as file:
         header, *rows = csv.reader(file)
     columns = header[1:-len(SOURCE)]

@@ -49,7 +49,8 @@ def ratio(numerator, denominator):
 
 
 def bound(row, mine):
-    """A lower bound on our speed-up, for a row where all peers exceeded the time limit."""
+    """The time limit that stopped peers, and a lower bound on our speed-up, for a row that no peer
+    completed."""
     stopped = [e for e in row["results"] if not is_ours(e["program"]) and e["threads"] == 1 and e["outcome"] == "time"]
     if mine is None or mine["outcome"] != "ok" or not stopped:
         return "none ended", "–"

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # Demonstrates libph on real data: the barcode of a point set, the barcode of a volume, and an RGB-D
-# frame cut into objects. Installs missing packages, builds, runs, and lists the files that it wrote
-# to out/.
+# frame cut into objects. Installs missing packages, builds and runs the programs, and lists the
+# files in out/.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 out=out

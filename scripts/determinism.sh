@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# determinism.sh [COMPILER-LEVEL[-ARCH]|Nehalem|max]…: checks that the programs write the same bytes
-# whatever the compiler (gcc or clang), the level (O0 to O3) and the instructions: x86-64 (default),
-# x86-64-v3 (AVX2, FMA) or x86-64-v4 (AVX-512), such as clang-O2 or gcc-O3-v3. Without another build,
-# it also checks processors that QEMU emulates: Nehalem (SSE 4.2) or max (AVX2, FMA). platforms.sh
-# checks 64-bit ARM and other C++ libraries. REFERENCE: the build to compare with (default:
-# build/release, built here); JOBS: number of parallel jobs. The last lines have the counts of each
-# variant.
+# determinism.sh [COMPILER-LEVEL[-ARCH]|Nehalem|max]…: checks that all variants write the same
+# bytes. A variant such as clang-O2 or gcc-O3-v3 is a build with a compiler (gcc or clang), a level
+# (O0 to O3) and instructions: x86-64 (default), v3 (AVX2, FMA) or v4 (AVX-512). The variants
+# Nehalem (SSE 4.2) and max (AVX2, FMA) are processors that QEMU emulates; they run the programs of
+# REFERENCE. platforms.sh checks 64-bit ARM and other C++ libraries. REFERENCE: the build to compare
+# with (default: build/release, built here); JOBS: number of parallel jobs. The last lines have the
+# counts of each variant.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 jobs=${JOBS:-$(nproc)}

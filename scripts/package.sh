@@ -53,7 +53,8 @@ make_source() {
   git archive --prefix="$name/" HEAD | tar -C "$work/source" -x
   add_page "$work/source/$name"
   pack "$work/source/$name" "$dist/$name.tar.xz"
-  # The time is that of debian/changelog, as in dpkg-buildpackage.
+  # Without SOURCE_DATE_EPOCH, dpkg-source takes the time from debian/changelog, as in
+  # dpkg-buildpackage.
   rm -rf "$dist/debian" && mkdir "$dist/debian"
   cp "$dist/$name.tar.xz" "$dist/debian/libph_$version.orig.tar.xz"
   git -c tar.umask=0022 archive --prefix=debian/ HEAD:debian | tar -C "$work/source/$name" -x

@@ -12,7 +12,7 @@ export CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=true
 export CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime
 
 # The libraries for the other processor are unpacked, not installed. This needs neither root nor a
-# foreign architecture in dpkg, and versions need not match those of local packages.
+# foreign architecture in dpkg, and versions need not match the versions of local packages.
 unpack_arm64() {
   local root=$PWD/build/aarch64-root
   [ -e "$root/complete" ] && return

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: MIT
 # sanitize.sh [asan-ubsan|tsan|debug|valgrind|integers]…: builds with run-time checks, runs the C++
 # tests with few random inputs, and then runs the commands of tests/platforms, whose outputs must
-# equal those of build/release. By default, the first four kinds run. Installs missing packages
-# first.
+# equal the outputs of build/release. By default, the first four kinds run. Installs missing
+# packages first.
 #   asan-ubsan  Clang checks addresses, leaks, undefined behaviour, and conversions to integers
 #   tsan        Clang checks threads
 #   debug       GCC with the checks of libstdc++'s debug mode

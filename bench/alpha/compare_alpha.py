@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Compares alpha complexes with CGAL's triangulation alone and with GUDHI: compare_alpha.py BUILD
-[--gudhi-python PYTHON] [--million] [ROW…]
+"""Compares the cost of alpha complexes with the cost of CGAL's triangulation alone, and with GUDHI:
+compare_alpha.py BUILD [--gudhi-python PYTHON] [--million] [ROW…]
 
 Measures whole programs on one thread, including the time to read: CPU seconds, the least of three
 runs (or the only run, if it is long), and peak memory. GUDHI runs in the faster of its modes `safe`
@@ -113,8 +113,8 @@ def bars_of(path):
 
 
 def agree(ours, peers):
-    """The numbers of bars may differ: GUDHI may find bars as long as a rounding error, which have
-    length 0 here."""
+    """True if the total lengths of the bars agree in each dimension. The numbers of bars are not
+    compared: bars of length 0 here may be as long as a rounding error in GUDHI."""
     for dim, line in enumerate(peers.splitlines()):
         length = float(line.split()[1])
         if not math.isclose(ours.get(dim, (0, 0.0))[1], length, rel_tol=1e-6, abs_tol=1e-9):

@@ -7,7 +7,7 @@
 In a peer's command, {input} is a .npy file of float32 in C order, and {output} is a path to which
 the peer may write. The peer runs under mpirun, like ph-barcode-mpi. The script measures user +
 system CPU seconds of all ranks together, wall seconds, and the peak resident memory of the largest
-rank. The bars of ph-barcode-mpi must equal those of ph-barcode, byte for byte. Needs numpy and
+rank. The bars of ph-barcode-mpi must equal the bars of ph-barcode, byte for byte. Needs numpy and
 scipy.
 """
 import argparse

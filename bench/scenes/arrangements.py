@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Arrangements of things: one function per kind of scene, which makes a scene from a random
-generator. The world is that of placing.py."""
+generator. placing.py describes the world."""
 
 import math
 
@@ -54,8 +54,8 @@ def table(random):
 
 
 def pile(scene, random, overhang):
-    """Puts one or two things on a box or a book. What is above hangs over what is below, or does
-    not."""
+    """Puts one or two things on a box or a book. If `overhang` is true, each of them hangs over the
+    thing below it; otherwise, none does."""
     below = put(scene, random, box if random.uniform() < 0.8 else book, (0, 0, 0.25, 0.2), 0.02)
     if below is None:
         return
@@ -85,7 +85,7 @@ def piles(random, overhang):
 
 
 def stack(random):
-    """Things on smaller areas of things: each lies within what it stands on."""
+    """Things that stand on other things and do not hang over their sides."""
     return piles(random, overhang=False)
 
 
@@ -205,7 +205,7 @@ def shelf(random):
             pass
         return thing
 
-    for k in range(2):  # from below, because a board hides from above what is below it
+    for k in range(2):  # the lower board comes first, because `put` looks from above
         scene.add("shelf" if k else "support", slab(colour, (w, d, thick), (0, 0, k * up)))
         for _ in range(random.integers(3, 6)):
             put(scene, random, fits, (0, -0.02, w / 2 - 0.1, d / 2 - 0.1), 0.02, floor=k * up)
@@ -252,7 +252,7 @@ def room(random):
             (x, y - 0.2, min(side - 0.3, 1.3), back - y + 0.1),
             0.05,
         )
-    # The ceiling comes last, because it hides from above where there is place.
+    # The ceiling comes last, because `put` looks for free places from above.
     scene.add("ceiling", Box(size=(9, 9, 0.1), colour=grey(random)).placed(shift=(0, 0, high)))
     scene.eye = (
         x + random.uniform(-0.5, 0.5),
@@ -264,7 +264,7 @@ def room(random):
 
 
 def loose(random):
-    """Things without a support: its points have been removed, or never were there."""
+    """Things without a support, as if its points had been removed."""
     make = (table, stack, clutter)[random.integers(3)]
     scene = make(random)
     things = [thing for thing in scene.things if thing.role == "object"]

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Cameras that see solids: exact depth by casting a ray per pixel, and then the errors of a sensor.
 
-A camera looks along its z axis; x is to the right and y is down. Errors follow what is published of
+A camera looks along its z axis; x is to the right and y is down. The errors follow publications on
 such sensors: axial noise that grows with depth² and rounding of disparity (Khoshelham & Elberink,
 2012; Nguyen, Izadi & Lovell, 2012), the shadow of the projector, ragged edges, and mixed pixels."""
 
@@ -16,7 +16,7 @@ GRAZING = 0.09  # cosine of the angle to the normal; flatter rays return nothing
 
 @dataclasses.dataclass(frozen=True)
 class Sensor:
-    """The optics and the errors of one kind of camera. Angles and pixels as of a pinhole."""
+    """The optics of one kind of camera, which is a pinhole without distortion, and its errors."""
 
     width: int
     height: int

@@ -92,7 +92,7 @@ def footprint(solids):
 
 
 def hangs_over(above, below):
-    """True if a part of what is above has nothing of what is below under it."""
+    """True if a part of the solids `above` has no part of the solids `below` under it."""
     return not numpy.isfinite(heights(below, footprint(above)[0], above=True)).all()
 
 
@@ -124,7 +124,7 @@ def is_free(scene, solids, gap, floor=0.0):
 
 
 def somewhere(random, make, area):
-    """A thing that is turned about the z axis at random, and a place of an area.
+    """A thing that is turned about the z axis at random, and a random place in an area.
 
     @param make makes the solids of a thing from the generator. @param area x and y of the middle of
     the area, half its width and half its depth."""
@@ -134,7 +134,7 @@ def somewhere(random, make, area):
 
 
 def put(scene, random, make, area, gap, floor=0.0, tries=40):
-    """Puts one thing on the support at height `floor`, apart from all others by the gap.
+    """Puts one thing on the support at height `floor`, more than `gap` away from all other things.
 
     Returns its solids, or None if no place was free. For `make` and `area`, see `somewhere`."""
     for _ in range(tries):

@@ -8,10 +8,11 @@ prints, for each kind, the mean F measure of objects with its standard error, an
 strays: segments of which less than half lies on objects. The score of a frame is the mean over five
 voxel edges (4.7 to 5.3 mm).
 
-A program for --peer is NAME = COMMAND, as for segmentation_scores.py. The differences from it are
-paired by frames. If {edge} is in the command, it runs with each voxel edge: {edge} stands for
-nothing (the default, 5 mm) or for `--voxel E`. {range} stands for the option that a kind needs of
-ph-segment: --max-range 6 in rooms, which are larger than its default of 2 m. Needs numpy.
+A program for --peer is NAME = COMMAND, as for segmentation_scores.py. The printed difference is our
+F minus its F, averaged over the frames. A command with {edge} runs once per voxel edge: {edge}
+stands for nothing (the default, 5 mm) or for `--voxel E`. {range} stands for the option that
+ph-segment needs for a kind: --max-range 6 in rooms, which are larger than its default range of 2 m.
+Needs numpy.
 """
 
 import argparse

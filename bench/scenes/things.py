@@ -76,7 +76,7 @@ def any_thing(random):
 
 
 def part(random):
-    """A small thing, as they are stored in bins."""
+    """A small thing of a kind that is stored in bins."""
     makers = (
         lambda r: box(r, 0.03, 0.1),
         lambda r: box(r, 0.03, 0.1),

@@ -88,8 +88,8 @@ class Benchmark:
         )
 
     def times(self):
-        """The least CPU seconds of each program for each frame and stage. The programs take
-        turns."""
+        """The least CPU seconds and the largest peak memory of each program for each frame, and the
+        least seconds of each stage. The programs take turns."""
         meter = Meter(self.arguments.build / "bench/bench_run", Limits(self.arguments.time_limit))
         result = {program.name: {} for program in self.programs}
         for path in self.paths:

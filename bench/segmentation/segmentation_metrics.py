@@ -16,7 +16,7 @@ FIRST_OBJECT = 10
 
 @dataclass(frozen=True)
 class Scores:
-    """Scores from 0 to 1. The scores of boundaries are None for a frame that is not an image."""
+    """Scores from 0 to 1. The scores of boundaries are None if they were not computed."""
 
     precision: float
     recall: float
@@ -149,7 +149,7 @@ def truth_of(labels, parts):
 
 
 def score(labels, prediction, parts, boundaries=True):
-    """Scores of one frame. All arrays have the same shape, which must be that of an image if
+    """Scores of one frame. All arrays have the same shape, which must have rows and columns if
     boundaries are scored.
 
     @param parts if true, the visible parts of an object count as separate objects.

@@ -7,7 +7,7 @@ one run.
       --peer 'NAME 1.0 = PROGRAM {input} --labels {output}.npy'
 
 SCENES is a folder of PCD files with the fields x y z label. A label of 0 means no depth, 1 to 9 the
-table, 20 to 29 the parts of the first object, 30 to 39 those of the second object, and so on. The
+table, 20 to 29 the parts of the first object, 30 to 39 the parts of the second, and so on. The
 category of each frame is in a CSV file (frame,category).
 
 A peer is NAME = COMMAND; the name includes the version. In the command, {input} is the frame, and

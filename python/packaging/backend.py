@@ -1,14 +1,15 @@
 # SPDX-License-Identifier: MIT
 """Builds wheels with CMake: a build backend (PEP 517, PEP 660) on the standard library alone.
 
-So ``pip install .`` needs no network where CMake, a compiler and pybind11 are installed. Settings
-(``pip install . --config-settings NAME=VALUE``):
+``pip install .`` therefore needs no network if CMake, a compiler and pybind11 are installed.
+Settings (``pip install . --config-settings NAME=VALUE``):
 
 build-dir
-    An existing build folder, configured with PH_BUILD_PYTHON: it is used as it is.
+    An existing build folder, configured with PH_BUILD_PYTHON. The module is built there, without a
+    new configuration.
 cmake-args
-    More arguments for the configuration, separated by blanks and quoted as in a shell. Those of
-    several such settings are joined.
+    More arguments for the configuration, separated by blanks and quoted as in a shell. If the
+    setting is given several times, all its arguments are used.
 """
 import base64
 import csv
@@ -39,8 +40,8 @@ def version():
 
 
 def metadata():
-    """METADATA. What pyproject.toml says about the project is said again here, without a parser of
-    TOML, which Python 3.9 lacks; tests hold the two together."""
+    """The file METADATA of a wheel. It repeats what pyproject.toml says about the project, because
+    Python 3.9 has no parser of TOML. A test checks that both agree."""
     return f"""\
 Metadata-Version: 2.1
 Name: {NAME}
@@ -60,11 +61,11 @@ Description-Content-Type: text/markdown
 """ + (ROOT / "docs/reference/python.md").read_text()
 
 
-# ---- hooks
+# ---- the functions that pip calls
 
 
 def _requirements(settings=None):
-    """Nothing that has to be fetched, if pybind11 is there."""
+    """The packages that pip must fetch before a build: pybind11, unless the system has it."""
     places = (Path(prefix, share, "cmake/pybind11")
               for prefix in ("/usr", "/usr/local") for share in ("lib", "share"))
     return [] if any(place.exists() for place in places) else ["pybind11>=2.10"]
@@ -100,7 +101,8 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
 
 
 def build_editable(wheel_directory, config_settings=None, metadata_directory=None):
-    """Python is found where it is written; what is written in C++ has to be installed again."""
+    """Makes a wheel that points to the build folder, which links to the Python sources. Only a
+    change of the C++ code needs a new installation."""
     folder = build(config_settings or {})
     return write_wheel(wheel_directory, {f"__editable__.{NAME}.pth":
                                          f"{(folder / 'python').resolve()}\n".encode()})
@@ -119,12 +121,13 @@ def build_sdist(sdist_directory, config_settings=None):
     return name
 
 
-# ---- how
+# ---- helpers
 
 
 def without_caches(info):
-    """Neither what Python and npm put there, nor what is built, but for a page of reports that is
-    built already: whoever has no npm has reports all the same."""
+    """The member of an archive, or None for a file to leave out: files that Python, npm or a build
+    made, and tests of the viewer. A report page that is already built stays in the archive, because
+    a build without npm needs it."""
     name = info.name.split("/", 1)[1]
     is_cache = "__pycache__" in name or name.endswith(".pyc") or name.startswith(
         ("viewer/node_modules", "viewer/test"))
@@ -161,7 +164,8 @@ def build(settings):
     if not given:
         make_folder(folder)
         generator = ["-G", "Ninja"] if shutil.which("ninja") else []
-        # Fresh: the sources may have been elsewhere, with another generator, with other arguments.
+        # `--fresh`, because an earlier configuration may have had other paths, another generator or
+        # other arguments.
         run("cmake", "--fresh", "-S", ROOT, "-B", folder, *generator, "-DCMAKE_BUILD_TYPE=Release",
             "-DPH_BUILD_PYTHON=ON", "-DPH_BUILD_APPS=OFF", "-DPH_BUILD_TESTS=OFF",
             "-DPH_BUILD_EXAMPLES=OFF", "-DPH_WITH_FREETYPE=OFF", "-DPH_INSTALL=OFF",
@@ -173,7 +177,7 @@ def build(settings):
 
 
 def pybind11_folder():
-    """The folder where pip installed pybind11, if it did."""
+    """CMake's argument for the folder where pip installed pybind11; empty if there is none."""
     try:
         import pybind11
     except ImportError:
@@ -194,7 +198,7 @@ def dist_info_files():
 
 
 def write_wheel(folder, files):
-    """Files by name, and what a wheel has beside them. @return the wheel's name."""
+    """Writes a wheel with these files (content by name) and its metadata. @return its name."""
     information = dist_info_files()
     tag = re.search("Tag: (.*)", information["WHEEL"])[1]
     name = f"{NAME}-{version()}-{tag}.whl"
@@ -212,7 +216,7 @@ def write_wheel(folder, files):
 
 
 def write_member(wheel, path, content):
-    """Always the same bytes: no time, no user's mode."""
+    """Adds a file with a fixed time and mode: the same files always make the same wheel."""
     info = zipfile.ZipInfo(path, (1980, 1, 1, 0, 0, 0))
     info.compress_type = zipfile.ZIP_DEFLATED
     info.external_attr = (0o755 if path.endswith(".so") else 0o644) << 16
