@@ -91,7 +91,7 @@ test("noise of a higher dimension is no finding", () => {
   }
   // A single bar has nothing below it to stand out from.
   assert.equal(finding([[0, 0, kNever], [1, 0, 1], ...noise(1, [0.1, 0.1, 0.1]), [2, 0.5, 0.65]]).dim, 1);
-  // Nothing but one short bar.
+  // The only bar is short.
   const { bars, sentence } = finding([[0, 0, kNever], [1, 1, 1.05]]);
   assert.deepEqual(bars, []);
   assert.equal(sentence, "No loop stands out: there is one, and it is short.");
@@ -118,7 +118,7 @@ test("honest where nothing stands out", () => {
     told([[0, 0, kNever], [0, 95, 100]], { image: {} }),
     "No other component stands out: there is one other, and it is short.",
   );
-  // Lengths of independent exponential distribution: no structure.
+  // Independent lengths with an exponential distribution have no structure.
   const next = random(3);
   let outstanding = 0;
   for (let round = 0; round < 200; ++round)
@@ -179,8 +179,8 @@ test("beyond the threshold nobody has looked", () => {
     finding(negated, { threshold: -2.5, value: { negated: true } }).sentence,
     /^Two components are apart down to 2\.5/,
   );
-  // Alive at 1, and known to be 0.9 and 0.3 long: both may be longer, so that there is no gap
-  // between them.
+  // Both bars are alive at 1, and at least 0.9 and 0.3 long. They may be longer: no gap between
+  // them is known.
   const loops = [[0, 0, kNever], [1, 0.1, kNever], [1, 0.7, kNever], ...noise(1, [0.1, 0.1, 0.09, 0.08])];
   assert.equal(
     finding(loops, { threshold: 1 }).sentence,
@@ -212,10 +212,10 @@ test("bars that never end", () => {
   const { sentence, bars } = finding([[0, -3, kNever], [1, -1, kNever], [1, 1, kNever], [2, 3, kNever]]);
   assert.equal(sentence, "Two loops never end: [−1, ∞) and [1, ∞). One void stands out as well.");
   assert.deepEqual(bars, [1, 2]);
-  // Alive where the complex was cut: at least that long.
+  // A bar that is alive at the threshold is at least as long as its known part.
   const cut = [[0, 0, kNever], [1, 0.1, kNever], ...noise(1, [0.1, 0.09, 0.08, 0.08])];
   assert.equal(finding(cut, { threshold: 0.9 }).sentence, "One loop stands out: [0.1, ∞), at least 8.0 times as long as the next.");
-  // Born right before the cut: nothing is known about its length.
+  // For a bar that is born right before the threshold, the length is unknown.
   assert.deepEqual(finding([[0, 0, kNever], [1, 0.88, kNever], ...noise(1, [0.1, 0.09, 0.08, 0.08])], { threshold: 0.9 }).bars, []);
 });
 

@@ -58,7 +58,7 @@ async function holes(page) {
     if (pixels[at] > 240 && pixels[at + 1] > 240 && pixels[at + 2] > 240) ++count;
   return count;
 }
-/// A small scene, which is quick to make; its texts are as long as those of a large scene.
+/// A small scene, which is quick to make; its texts are as long as the texts of a large scene.
 function smallScene() {
   const report = scene(160, 134);
   report.meta.provenance.input.description = "343 040 points, PCD, 640 x 536";
@@ -98,7 +98,7 @@ test("the first view", { timeout: 300_000 }, async (t) => {
 
   await t.test("a surface of points has no holes, at any size and from any side", async (tt) => {
     const flat = sheet(100, (i, j) => [i, j, 0.02 * Math.sin(i)], kOrange);
-    // As a camera sees it: pixels of equal angles, farther and nearer.
+    // A camera sees these points at equal angles and at different depths.
     const seen = sheet(
       200,
       (i, j) => {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Opens reports in headless Firefox, outside the test suite: node --experimental-websocket
-// in_firefox.mjs REPORT.html…. It prints when each report has drawn its first frame. Fails on errors and warnings in the console, except those of three.js on a machine without
-// WebGL, which the page itself reports.
+// in_firefox.mjs REPORT.html…. It prints how long each report took to draw its first frame. It
+// fails on errors and warnings in the console, except messages about WebGL: three.js writes them on
+// a machine without WebGL, which the page itself reports.
 import { spawn } from "node:child_process";
 import { mkdtempSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";

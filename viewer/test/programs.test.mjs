@@ -26,7 +26,7 @@ const written = (name) => readFileSync(join(folder, name), "utf8");
 const kCharts = [".diagram .chart", ".barcode .chart"];
 const kTree = [".cut .chart", ".tree .chart"];
 
-/// Opens a report that a program made; each of these views must show something, once it is unfolded.
+/// Opens a report that a program made. Each of these views must show something when it is open.
 async function look(browser, name, views, act = async () => {}) {
   const { page, problems, close } = await open(browser, written(name));
   for (const folded of await page.$$(".panel.folded .fold")) await folded.click();

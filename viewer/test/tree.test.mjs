@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Tests that the cuts of the page equal the program's: every label of every vertex, including ties.
+// Tests that each cut of the page gives every vertex the same label as the program, even with ties.
 import assert from "node:assert/strict";
 import test from "node:test";
 import { contracted, cutOf, mergeTree } from "./support/reference_tree.mjs";

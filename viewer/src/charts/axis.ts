@@ -83,8 +83,8 @@ export class Axis {
   }
 
   private inUnits(value: number): number {
-    // In two steps, because a power of ten beyond 10^±308 is not a double, but one with half the
-    // exponent is.
+    // Divides by two powers of ten, because a power of ten beyond 10^±308 is not a double, but one
+    // with half the exponent is.
     const half = Math.trunc(this.exponent / 2);
     return value / 10 ** half / 10 ** (this.exponent - half);
   }

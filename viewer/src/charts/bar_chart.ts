@@ -18,7 +18,7 @@ export function nameOfBar(session: Session, bar: number): string {
 export abstract class BarChart extends Chart {
   private current = -1; // index among the shown bars, by persistence
 
-  /// y of the upper end of its row
+  /// At most `most` of the bars whose dimensions are not hidden, the most persistent first.
   protected shownBars(most: number): Uint32Array {
     const { bars } = this.session.report,
       hidden = this.session.hiddenDims.size > 0;

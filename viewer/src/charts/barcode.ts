@@ -43,7 +43,7 @@ export class Barcode extends BarChart {
   private items: Item[] = [];
   private rowsFor: Map<number, string> | undefined; // bars that must have a row
   private axes: Axis[] = [];
-  private readonly right: number; // Room for arrows and, if bars have numbers, for these numbers.
+  private readonly right: number; // room for arrows and, if bars have numbers, for these numbers
 
   constructor(session: Session) {
     super(session, "barcode", "Barcode", "");
@@ -122,7 +122,7 @@ export class Barcode extends BarChart {
       if (colour) drawLine(pen, item, Math.max(1.5, thicknessOf(item.row)), colour);
     }
   }
-  /// Draws the numbers of bars. All bars must be drawn before, so that no bar covers a number. If
+  /// Draws the numbers of bars. All bars must be drawn first, so that no bar covers a number. If
   /// neighbouring rows are lower than a number, their bars share one text, which stands at the end
   /// of the longest of these bars.
   private drawNumbers(pen: Pen): void {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The live cut: a slider over the number of segments at every cut. A wide step is a gap between
-// persistences; the widest suggests where to cut.
+// The cut: a slider beneath a curve, which shows the number of segments at every cut. A wide step
+// of the curve is a gap between persistences; the widest gap suggests a cut.
 import { Chart } from "./chart";
 import { button, el, table, type Size } from "../common/dom";
 import { CutScale, kSteps, segmentCounts } from "../model/cuts";
@@ -85,7 +85,7 @@ export class CutChart extends Chart {
       height = size.height - kTop - kBottom;
     const few = Math.min(...this.counts),
       least = few > most / 4 ? 0.8 * few : 0;
-    // Logarithmic, because the few segments at the right matter.
+    // The scale is logarithmic, because large cuts leave few segments, whose number matters.
     const y = (count: number) =>
       kTop +
       height * (1 - Math.log((count + 1) / (least + 1)) / Math.log((most + 1) / (least + 1)));

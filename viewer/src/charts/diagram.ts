@@ -116,7 +116,7 @@ export class Diagram extends BarChart {
   }
 
   /// Draws equal bars side by side, and bars of segments in the order of their numbers. Near the
-  /// diagonal, where nobody looks for single bars, equal bars overlap.
+  /// diagonal, where single bars do not matter, equal bars overlap.
   private fan(marked: Uint32Array): Crowd[] {
     const { session } = this;
     const { bars } = session.report;

@@ -3,7 +3,8 @@
 
 /// Distance between dots in pixels.
 export const kPitch = 8.5;
-/// Largest number of dots at one place; beyond it, only the count is shown.
+/// The most dots that are fanned out at one place, and on the line of infinity. If there are more,
+/// their count is shown.
 const kMostFanned = 24,
   kMostOnLine = 60;
 
@@ -33,7 +34,7 @@ export function fanOut(
     const [first] = group as [number];
     const at = { x: x[first]!, y: y[first]! };
     if (onLine(first)) {
-      // All dots, or the numbered dots with the others stacked behind them.
+      // Fans out all dots, or only the numbered dots; then the other dots are stacked behind them.
       const apart = group.length <= kMostOnLine ? group : group.filter(isNumbered);
       // The dots extend towards the side with more room.
       const side = right - at.x >= at.x - left ? 1 : -1;

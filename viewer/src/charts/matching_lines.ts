@@ -15,7 +15,7 @@ export interface Places {
 }
 
 /// Shows the matching of two barcodes: lines between pairs, and dotted lines to the diagonal for
-/// bars without a partner. If there are many pairs, only those that move farthest are drawn.
+/// bars without a partner. If there are many pairs, only the pairs that move farthest are drawn.
 /// @return the number of lines, and how many of them are drawn.
 export function drawMatching(
   pen: Pen,
@@ -31,7 +31,7 @@ export function drawMatching(
     if (!session.isShown(bar) || (partner !== undefined && partner < bar)) continue;
     pairs.push({ bar, partner, move: Matching.move(bars, bar, partner) });
   }
-  // Not a.move - b.move: Infinity - Infinity is NaN.
+  // Compares instead of subtracting, because Infinity - Infinity is NaN.
   if (pairs.length > kMostDrawn) pairs.sort((a, b) => (a.move > b.move ? -1 : 1));
   const shown = pairs.slice(0, kMostDrawn);
   for (const { bar, partner } of shown) {

@@ -42,9 +42,9 @@ export class TreeChart extends Chart {
     const { tree } = this;
     const level = Float64Array.from({ length: tree.leaves }, (_, b) => tree.level(b));
     const size = tree.sizes();
-    // The largest level comes first. Among equal levels, the larger branch comes first; among
-    // equally large branches, the one that dies later. In this order, a branch always follows the
-    // branch that it merges into.
+    // The largest level comes first. Among branches that never merge, the larger one comes first;
+    // among other branches of equal level, the one that merges later. In this order, a branch
+    // always follows the branch that it merges into.
     this.byLevel = new Uint32Array(tree.leaves)
       .map((_, i) => i)
       .sort((a, b) =>
@@ -80,7 +80,7 @@ export class TreeChart extends Chart {
       pen.line(left, tick.at, size.width - kRight, tick.at, theme.grid);
       pen.text(left - 6, tick.at + 3.5, tick.label, { ...small, anchor: "end" });
     }
-    // The same title as that of the barcode's axis, which shows the same values.
+    // The title is the title of the barcode's axis, which shows the same values.
     const label = clipped(meta.value.label.toLowerCase(), 24);
     pen.text(12, size.height / 2, unit ? `${label} (${unit})` : label, {
       ...small,
@@ -111,7 +111,8 @@ export class TreeChart extends Chart {
     return merge !== kNone && this.tree.isDone(merge, this.session.cutValue);
   }
 
-  /// If only selected items have numbers, the numbers change with the selection.
+  /// Draws the numbers of branches. They belong to the overlay, because they may change with the
+  /// selection.
   private drawNumbers(pen: Pen): void {
     const numbers = this.session.numbers(),
       labelPlaces = new LabelPlaces();
@@ -214,7 +215,8 @@ export class TreeChart extends Chart {
     });
     return { axis, ticks };
   }
-  /// The trunks of the largest trees, and of all other branches the most persistent ones.
+  /// At most `most` branches: the largest trunks, and then the most persistent branches that merge
+  /// into a shown branch. A trunk is a branch that never merges.
   private prominent(most: number): number[] {
     const { tree, byLevel } = this;
     let roots = 0;

@@ -10,8 +10,8 @@ export interface Geometry {
 
 export const emptyGeometry = (): Geometry => ({ points: [], segments: [], triangles: [] });
 
-/// The place in the picture of the vertex with this number in the input; undefined if it is not
-/// shown.
+/// The index of a vertex among the shown elements; undefined if the vertex is not shown. @param
+/// vertex its number in the input.
 export function elementOf(report: Report, vertex: number): number | undefined {
   const index = report.cloud?.index;
   if (!index) return vertex < (report.elements?.count ?? 0) ? vertex : undefined;

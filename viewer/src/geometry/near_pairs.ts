@@ -72,13 +72,14 @@ export function shortestPairs(p: Float32Array, limit: number, most: number): Sor
   let best: number[] = [],
     reach = 0,
     over = Infinity;
-  // Guess a radius, double it, then bisect.
+  // The search doubles the radius while it finds few enough pairs, or divides it by 8 while it
+  // finds too many; then it bisects.
   let guess = limit / 64;
   for (let round = 0; round < 24 && reach < limit; ++round) {
     const pairs = pairsWithin(p, guess, most);
     if (pairs) [best, reach] = [pairs, guess];
     else over = guess;
-    if (best.length > 1.6 * most) break; // nine tenths of the budget are good enough
+    if (best.length > 1.6 * most) break; // four fifths of `most` are enough
     if (over === Infinity) guess = Math.min(limit, 2 * reach);
     else guess = reach > 0 ? (reach + over) / 2 : over / 8;
   }

@@ -76,7 +76,8 @@ class Grid {
     const p = this.positions;
     let members = 0;
     for (const list of lists) members += this.start[list + 1]! - this.start[list]!;
-    // In crowded cubes, only every n-th point is examined; the distance is corrected for a surface.
+    // In crowded cubes, only every n-th point is examined. On a surface, this makes the distance
+    // larger by a factor of √n, which is divided out below.
     const step = Math.ceil(members / kMostCompared);
     for (const list of lists)
       for (let k = this.start[list]!; k < this.start[list + 1]!; k += step) {

@@ -62,13 +62,15 @@ export class ShownComplex {
     for (let i = 0; i < isIn.length; ++i) if (isIn[i] === 0) found[count++] = i;
     return found.subarray(0, count);
   }
-  /// The triangles of a mesh, three places each, ascending by value; undefined if it is not a mesh.
+  /// The triangles, three indices of shown points each, ascending by value; undefined if there are
+  /// none.
   get surface(): Uint32Array | undefined {
     const { triangles } = this.report;
     return triangles && this.available ? this.elementsOf(triangles.corners) : undefined;
   }
 
-  /// The triangles that the program wrote or, for a flag complex, those whose edges are present.
+  /// The triangles that the program wrote or, for a flag complex, all triangles whose edges are
+  /// present.
   private trianglesUpTo(value: number, edges: Uint32Array): Uint32Array | undefined {
     const { triangles, meta } = this.report;
     if (triangles) {
@@ -93,7 +95,7 @@ export class ShownComplex {
     };
   }
   private readonly found = new Map<Numbers, Uint32Array>();
-  /// Vertices of cells as places in the picture.
+  /// The indices of the vertices of cells among the shown points.
   private elementsOf(vertices: Numbers): Uint32Array {
     let elements = this.found.get(vertices);
     if (elements) return elements;

@@ -26,8 +26,8 @@ export function surfaceOfBar(sets: VoxelSets, bar: number, shape: number[]): Flo
 }
 
 /// Triangles around a set, as x, y, z of each corner. The voxels of a large set are grouped into
-/// cubes, whose edge is doubled until few enough of them are left, because the picture has no room
-/// for more.
+/// cubes. The edge of the cubes is doubled until few enough cubes are left, because the picture has
+/// no room for more.
 export function surfaceOf(runs: Numbers, shape: number[]): Float32Array {
   const box = boxOf(runs, shape);
   for (let step = 1; ; step *= 2) {

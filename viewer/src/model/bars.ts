@@ -167,7 +167,8 @@ function decreasing(values: Float64Array): Uint32Array {
   return order;
 }
 
-/// Most runs are pairs: sort short ones by insertion.
+/// Sorts indices of equal floats by their doubles. Most runs are pairs, so short runs are sorted by
+/// insertion.
 function sortRun(order: Uint32Array, from: number, to: number, values: Float64Array): void {
   if (to - from > 16) {
     // Compares instead of subtracting, because Infinity - Infinity is NaN.

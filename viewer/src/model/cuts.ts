@@ -60,10 +60,10 @@ export function segmentCounts(tree: MergeTree, cuts: number[]): number[] {
   });
 }
 
-/// A cut between the two neighbouring levels with the largest ratio. The upper of them is one of
-/// the largest levels, so the levels above the cut are much larger than those below it. If no ratio
-/// is large enough and the cut is by persistence, the cut lies between the two levels with the
-/// largest difference.
+/// A cut between the two neighbouring levels with the largest ratio. The upper of the two must be
+/// one of the largest levels, because large ratios of small levels occur by chance. If no ratio is
+/// large enough and the cut is by persistence, the cut lies between the two neighbouring levels
+/// with the largest difference.
 export function suggestedCut(tree: MergeTree, from: number, to: number): number | undefined {
   const levels = levelsOf(tree)
     .filter((v) => v > 0 && Number.isFinite(v))
@@ -89,8 +89,8 @@ export function suggestedCut(tree: MergeTree, from: number, to: number): number 
 /// Number of steps of the slider.
 export const kSteps = 2000;
 
-/// Converts a slider's position (0 … 1) to a cut and back. The scale is logarithmic if the levels
-/// span decades. It starts at 0 if a cut of 0 is allowed.
+/// Converts a slider's position (0 … 1) to a cut and back, on a logarithmic scale. Position 0 is
+/// the least cut that is allowed, which may be 0.
 export class CutScale {
   readonly from: number;
   readonly to: number;

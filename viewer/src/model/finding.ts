@@ -88,7 +88,8 @@ function lengthsOf(bars: Bars, dim: number, threshold: number | undefined): Leng
     else if (!(length > 0) || known.length > kMostKnown) break;
     else known.push([bar, length]);
   }
-  // The lengths of bars that were born late are unknown: they cannot be the lower end of a gap.
+  // A bar that is alive at the threshold may be longer than its known part, and thus cannot be the
+  // lower end of a gap. It counts only if its known part is longer than all bars that end.
   const longer = alive.filter(([, length]) => length > (known[0]?.[1] ?? 0));
   result.alive = longer.length;
   known.unshift(...longer.sort((a, b) => b[1] - a[1]));
@@ -147,7 +148,7 @@ export function findingOf(report: Report): Finding {
   };
 }
 
-/// True if a dimension has just one bar, which never ends: the class of the whole space.
+/// True if a dimension above 1 has just one bar, which never ends: the class of the whole space.
 function isWhole({ dim, isEndless, finite }: Lengths, out: number[]): boolean {
   return dim > 1 && isEndless && out.length === 1 && finite.length === 0;
 }

@@ -59,8 +59,8 @@ export class MergeTree {
   readonly deathOf: Uint32Array;
   /// The branch that each branch merges into, or kNone.
   readonly parentOf: Uint32Array;
-  /// An order in which each branch comes right before those that merge into it, and the index of
-  /// each branch in it.
+  /// An order in which each branch comes right before the branches that merge into it, and the
+  /// index of each branch in this order.
   readonly order: Uint32Array;
   readonly rank: Uint32Array;
   /// One past the last index of the branches that merge into a branch.

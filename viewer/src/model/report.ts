@@ -32,7 +32,8 @@ export interface Image {
   shift: number; // converts a doubled coordinate to twice the index of its voxel
 }
 
-/// Representatives: chain i belongs to bar `bar[i]`; its cells are start[i] … start[i + 1] - 1.
+/// Representatives: a bar has the chain `ofBar.get(bar)`; chain i has the cells start[i] …
+/// start[i + 1] - 1.
 export interface Chains {
   ofBar: Map<number, number>;
   start: Numbers;

@@ -93,7 +93,7 @@ export function goTo(address: string, session: Session, data: DataView | undefin
   const isDark = parts.has("theme") ? parts.get("theme") === "dark" : prefersDark();
   session.set("theme", themeOf(isDark), "theme");
   if (parts.has("bars")) session.select(fromRuns(parts.get("bars")!, report.bars.size));
-  data?.face(); // must come before the view
+  data?.face(); // must come before the view, because it resets the view
   if (data?.stage && parts.has("view")) data.stage.view = numbers("view");
   else data?.stage?.reset();
 }

@@ -131,7 +131,7 @@ export function selectionJson(session: Session): string {
   const { chains, meta } = report;
   const { input, complex, field, max_dim, threshold, filtration, engine, timings, peak_memory } =
     meta.provenance;
-  // Otherwise the program writes neither.
+  // A barcode that was read from a file may state neither its complex nor its field.
   const isComputed = complex !== undefined && field !== undefined;
   const selected = selectedOrShown(session);
   const allHaveChains = selected.length > 0 && selected.every((bar) => chains?.ofBar.has(bar));

@@ -26,9 +26,9 @@ export function foldable(panel: HTMLElement, title: string, folded: boolean): ()
   };
 }
 
-/// True if the cut of the tree is informative. It is if components stand out. Otherwise different
-/// cuts must have different numbers of segments, and the page must show several colours of segments
-/// or no data.
+/// True if the cut of the tree is informative. One reason is that components stand out. The other
+/// is that different cuts have different numbers of segments, and the page shows several colours of
+/// segments or no data.
 /// @param counts numbers of segments at cuts along the slider.
 export function cutSays(session: Session, counts: number[]): boolean {
   const { tree } = session.report;

@@ -26,7 +26,7 @@ function mixed(a: number, b: number, part: number): number {
 }
 
 export class Colouring {
-  /// Red, green, blue, 255 for each element.
+  /// Red, green, blue and 255 for each element; zeros for an absent voxel.
   readonly rgba: Uint8Array;
   private readonly shown: Uint32Array; // the same numbers as 32-bit words
   private readonly base: Uint32Array; // without highlights
@@ -58,7 +58,7 @@ export class Colouring {
     this.mode = mode;
     const painted = this.paintBase(mode);
     const { segment, bar } = session.focus;
-    // If bars have sets of voxels, these are shown, whichever segment is highlighted.
+    // If bars have sets of voxels, the set of the bar is shown, whichever segment is highlighted.
     const anyBar = segment > 0 && !session.report.voxels;
     const basins = mode === "grey" ? session.cutValue : 0;
     const key = [segment, anyBar ? -1 : bar, session.scale ?? "all", basins].join();

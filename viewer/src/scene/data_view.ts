@@ -166,7 +166,7 @@ export class DataView {
       this.panel.append(el("p", { class: "note" }, report.meta.cloud.projection));
   }
 
-  /// Shows the slice from the front.
+  /// Restores the initial view of the slice, unless the eye already looks along its axis.
   face(): void {
     const { report, sliceAxis } = this.session;
     if (this.facing === sliceAxis) return;

@@ -12,7 +12,7 @@ import type { Stage } from "./stage";
 
 const kPatience = 60, // milliseconds of waiting after the last change
   kSize = 12, // text size in pixels
-  // A place is hidden if its distance exceeds that of the nearest point by this factor.
+  // A place is hidden if its distance exceeds the distance of the nearest point by this factor.
   kBehind = 1.02,
   kPlaces = 48; // candidate places of a segment, for when its middle is hidden
 

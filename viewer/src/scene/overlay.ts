@@ -125,8 +125,8 @@ void main() {
   gl_FragColor = vec4(min(colour * light, 1.0), opacity);
 }`;
 
-/// Draws a surface: all of it faintly, even behind the data, then its visible part, shaded. For
-/// this, its depth is drawn before its colours.
+/// Draws a surface: all of it faintly, even behind the data, and then its visible part, shaded. To
+/// find the visible part, the depth of the surface is drawn before the colours of this part.
 function shaded(geometry: BufferGeometry, { colour, opacity }: Shape): Object3D[] {
   const layer = (order: number, part: number, depthWrite: boolean) => {
     const material = new ShaderMaterial({

@@ -132,7 +132,7 @@ export class PointCloud {
     scale!.value = 0.5 * height * pixelRatio;
     (limits!.value as Vector2).set(least! * pixelRatio, most! * pixelRatio);
   }
-  /// The nearest point to the eye among those at these pixels; -1: none.
+  /// The point at these pixels that is nearest to the eye; -1: none.
   at(stage: Stage, x: number, y: number): number {
     const [px, py] = stage.normalised(x, y);
     const m = new Matrix4().multiplyMatrices(

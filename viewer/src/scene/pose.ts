@@ -53,9 +53,9 @@ const kBase = 0.01, // share of an extent
   kFlat = 1 / 3; // share of both other extents
 
 /// The upward direction if the data do not state it: away from a flat base, which has many points
-/// exactly at one end of one axis only. Without a base, it is z for points and y for a mesh, as in
-/// OBJ, glTF and most scans distributed as OFF or PLY. For a relief, which is a mesh that is flat
-/// along z, it is z as well.
+/// near one end of one axis only. Without a base, the direction is z for points and for a relief,
+/// which is a mesh that is flat along z. For other meshes, it is y, as in OBJ, glTF and most scans
+/// distributed as OFF or PLY.
 function standing(sample: number[], isMesh: boolean): Vector3 {
   const count = sample.length / 3;
   const extents: number[] = [];

@@ -21,7 +21,7 @@ const kMostChains = 100,
   kMostOutlined = 4000; // number of cells of a surface; the edges of more would be a tangle
 
 // No other colour of the page is close to the colour of births: neither the colours of values,
-// which are drawn on the same surface, nor those of segments or dimensions.
+// which are drawn on the same surface, nor the colours of segments or dimensions.
 export const kBirthColour = "#e6007e",
   kDeathColour = "#cc79a7";
 

@@ -14,14 +14,14 @@ import { el, type Size } from "../common/dom";
 import { EyeDome } from "./eye_dome_lighting";
 import type { Pose } from "./pose";
 
-// Colours go to the screen unchanged; there is no lighting.
+// three.js does not convert colours between colour spaces.
 ColorManagement.enabled = false;
 
 const kFieldOfView = 40,
   kMargin = 1.08;
 
-/// Undefined without WebGL; checked first, because the renderer would write an error to the
-/// console.
+/// Undefined without WebGL. A context is requested first, because the renderer would otherwise
+/// write an error to the console.
 export function rendererOf(): WebGLRenderer | undefined {
   const canvas = el("canvas");
   const context = canvas.getContext("webgl2", { antialias: true, alpha: true });
@@ -112,8 +112,8 @@ export class Stage {
     else this.reset();
     this.invalidate();
   }
-  /// Restores the initial view for a picture of this shape, whatever the reader has done, because
-  /// an address stores only the position of the eye and the zoom.
+  /// Sets the initial projection for a picture of this shape, whatever the reader has done, because
+  /// an address stores only the position of the eye, its target and the zoom.
   /// @return the initial distance of the eye.
   private fit(): number {
     const { camera } = this,
@@ -164,7 +164,7 @@ export class Stage {
     const { width, height } = this.size;
     return { width: this.besides ? width / 2 : width, height };
   }
-  /// The distance of a place from the eye, measured along the line of sight.
+  /// The distance of a place from the eye, measured along the axis of the camera.
   depthOf(x: number, y: number, z: number): number {
     return -new Vector3(x, y, z).applyMatrix4(this.camera.matrixWorldInverse).z;
   }
@@ -202,7 +202,7 @@ export class Stage {
     this.moved = true;
     this.invalidate();
   }
-  /// The position of the eye, for the address of the page.
+  /// The position of the eye, its target and the zoom, for the address of the page.
   get view(): number[] {
     const { position } = this.camera,
       { target } = this.controls;

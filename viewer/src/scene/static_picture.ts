@@ -80,10 +80,8 @@ export class StaticPicture {
     }
     return seen.sort((a, b) => b.depth - a.depth).map(({ dot }) => dot);
   }
-  // If there are very many triangles or lines, only every n-th is drawn, which is enough to show
-  // the shape.
-
-  /// The triangles of a shape, the farthest first.
+  /// The triangles of a shape, the farthest first. If there are very many triangles, or lines, only
+  /// every n-th is drawn, which is enough to show the shape.
   private triangles(shape: Shape): SVGElement[] {
     const { triangles } = shape.geometry;
     const step = 9 * Math.max(1, Math.ceil(triangles.length / 9 / kMostMarks));

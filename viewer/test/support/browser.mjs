@@ -37,9 +37,9 @@ const folder = mkdtempSync(join(tmpdir(), "ph-report-"));
 process.on("exit", () => rmSync(folder, { recursive: true, force: true }));
 let written = 0;
 
-// Starting a process for each page would take longer than most tests: the next test reuses the page
-// that a test closes. A page behind another draws one frame per second; therefore the page opened
-// last is in front.
+// The next test reuses the page that a test closes, because starting a process for each page would
+// take longer than most tests. The page opened last is in front, because a page behind another one
+// draws only one frame per second.
 const pagesOf = new WeakMap();
 
 async function pageOf(browser, scripts, touch) {
@@ -64,8 +64,8 @@ async function release(browser, page) {
   await opened.at(-1)?.bringToFront();
 }
 
-/// Opens a report. `problems` collects console errors, page errors, and every request except the
-/// file itself.
+/// Opens a report. `problems` collects errors and warnings in the console, page errors, dialogs,
+/// and every request except the request for the file itself.
 export async function open(
   browser,
   report,
@@ -177,8 +177,8 @@ export const coloursOf = async (page, selector) => colourCount(await pixelsOf(pa
 const hueOf = (r, g, b) =>
   (Math.atan2(Math.sqrt(3) * (g - b), 2 * r - g - b) * (180 / Math.PI) + 360) % 360;
 
-/// The number of pixels far from grey; with a colour, the number of these with its hue, whatever
-/// the lighting.
+/// The number of pixels far from grey. With a colour, only pixels with the hue of the colour count,
+/// whatever the lighting.
 export function vividPixels(pixels, spread, colour) {
   const wanted = colour && hueOf(...colour);
   let count = 0;

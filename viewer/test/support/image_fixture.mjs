@@ -3,7 +3,8 @@ import { barArrays, byOrder, kNone, metaOf } from "./fixture_parts.mjs";
 import { contracted, mergeTree } from "./reference_tree.mjs";
 import { random } from "./random.mjs";
 
-/// A grey picture of dark blobs, or a volume of hollow balls; its tree is that of sublevel sets.
+/// A grey picture of dark blobs, or a volume of hollow balls, with the merge tree of its sublevel
+/// sets.
 export function image(shape = [120, 160]) {
   const next = random(11),
     size = shape.reduce((a, b) => a * b, 1),

@@ -152,7 +152,7 @@ export function treeOnly() {
   return { meta: { ...rest, title: "matrix.csv" }, arrays };
 }
 
-/// Values at the ends of what a double can hold, an image with holes.
+/// Bars with values at the ends of what a double can hold, and an image with holes.
 export function extreme() {
   const bars = [
     [0, -1.7e308, 1.7e308],
@@ -173,7 +173,7 @@ export function extreme() {
   };
 }
 
-/// Components of a few hundred thousand points: a leaf each.
+/// The components of a few hundred thousand points, each of which is a leaf.
 export function manyLeaves(n = 300_000) {
   const next = random(4),
     side = Math.ceil(Math.sqrt(n)),

@@ -131,7 +131,7 @@ export function scene(width = 640, height = 536, { seeds = 26 } = {}) {
     births.map((b, i) => (vertexOfPoint[i] === kNone ? Infinity : b)),
     edges,
   );
-  // Vertices that never enter are not leaves: the tree gets only those that enter, under new
+  // Vertices that never enter are not leaves: the tree gets only the vertices that enter, under new
   // numbers.
   const entered = [...vertexOfPoint].filter((v) => v !== kNone);
   const number = new Map(entered.map((v, k) => [v, k]));
