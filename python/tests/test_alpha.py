@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""ph.alpha: compares bars with those of a SciPy triangulation, whose values are computed by the
-definition; weights, surfaces, refused inputs."""
+"""ph.alpha: compares bars with the bars of a SciPy triangulation, whose values are computed by the
+definition. Also tests weights, surfaces and refused inputs."""
 import itertools
 import pickle
 
@@ -86,7 +86,7 @@ def test_vertices_of_a_tree_are_points():
     random = np.random.default_rng(9)
     for size in (1, 2, 3, 10, 40):
         for dim in (1, 2, 3):
-            # Rounded, so that some points coincide.
+            # Rounds the coordinates, because some points must coincide.
             points = random.normal(size=(size, dim)).round(1)
             points[random.random(size) < 0.2, 0] = np.nan
             is_there = ~np.isnan(points[:, 0])
@@ -140,7 +140,7 @@ def test_a_file_keeps_what_values_are(tmp_path):
     points = np.random.default_rng(4).random((20, 2))
     for options in ({"squared": False}, {"squared": True}, {"squared": False, "period": 1}):
         bars = ph.alpha(points, **options)
-        for _ in range(2):  # writes a surface, reads it, and writes it again
+        for _ in range(2):  # writes a barcode, reads it, and writes it again
             bars.save(tmp_path / "bars.json")
             bars = ph.read_barcode(tmp_path / "bars.json")
             assert bars.meta["squared"] is options["squared"]

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Options: defaults are those of the program, and meaningless values are refused with a message."""
+"""Options: the package and the program have the same defaults, and meaningless values are refused
+with a message."""
 import threading
 
 import numpy as np
@@ -140,8 +141,7 @@ def test_axes_that_close_up():
 
 
 def test_defaults_are_those_of_the_program():
-    """The default max_dim is 1 for Rips and all dimensions for images; H0 of points needs no
-    threshold."""
+    """The default max_dim of points is 1; H0 of points needs no threshold."""
     assert ph.rips(SQUARE).meta["max_dim"] == 1
     assert ph.rips(SQUARE, max_dim=0).meta["engine"] == "union-find"
     assert "threshold" not in ph.rips(SQUARE, max_dim=0).meta

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""generated_scenes.py BUILD: the generator of RGB-D frames sees what geometry says, and the same
-seed gives the same frame."""
+"""generated_scenes.py BUILD: the frames of the generator agree with geometry, and the same seed
+gives the same frame."""
 import pathlib
 import subprocess
 import sys
@@ -63,7 +63,7 @@ class Shapes(unittest.TestCase):
             above = placing.rest(scene, can, x, 0)
             self.assertAlmostEqual(above[0].corners()[:, 2].min(), 0.1)
             self.assertEqual(placing.hangs_over(above, below), hangs)
-        self.assertIsNone(placing.rest(scene, can, 0.12, 0))  # it tips
+        self.assertIsNone(placing.rest(scene, can, 0.12, 0))  # the can tips over
 
 
 class Frames(unittest.TestCase):

@@ -115,7 +115,7 @@ class Metrics(unittest.TestCase):
         self.assertEqual(both(metrics.score(table, 0 * table, False)), (1, 1, 1, 1))
         self.assertEqual(both(metrics.score(box, 0 * box, False)), (1, 0, 0, 0))
         self.assertEqual(both(metrics.score(table, table, False)), (0, 1, 0, 0))
-        # A frame without depth.
+        # The last frame has no depth.
         self.assertEqual(both(metrics.score(0 * box, box, False)), (1, 1, 1, 1))
 
     def test_supervoxels(self):

@@ -109,8 +109,8 @@ class Unavailable(Exception):
 
 @contextlib.contextmanager
 def plain(_folder):
-    """A context manager for the environment of a run: prepares a folder, yields options of
-    subprocess.Popen, and cleans up."""
+    """The default of Entry.around, which changes nothing. Other context managers prepare the
+    folder, yield options of subprocess.Popen, and clean up."""
     yield {}
 
 

@@ -18,7 +18,7 @@ STRING = re.compile(r'"((?:[^"\\]|\\.)*)"')
 
 
 def texts_of(path):
-    """The string literals of a file without those in comments, each with its line."""
+    """The string literals of a file outside comments, each with its line."""
     with open(path, encoding="utf-8") as file:
         for number, line in enumerate(file, 1):
             if line.lstrip().startswith(("//", "#include")):

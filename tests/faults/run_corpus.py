@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
 """run_corpus.py PH_BARCODE PH_SEGMENT PH_DISTANCE PH_VECTORISE PEAK [WORDS…]: runs every entry of
-the corpus (with WORDS, those whose name contains the words) in a separate folder. It checks the
-promises about faulty inputs: the exit code, one line on stderr that names the file or the option,
-nothing on stdout, nothing written, no temporary file, an end within a second, and at most 16 MiB
-and 50 ms if a header is false. PEAK is the program of peak.c."""
+the corpus (with WORDS, only the entries whose name contains them) in a separate folder. It checks
+the promises about faulty inputs: the exit code, one line on stderr that names the file or the
+option, nothing on stdout, nothing written, no temporary file, an end within a second, and at most
+16 MiB and 50 ms if a header is false. PEAK is the program of peak.c."""
 import collections
 import os
 import pathlib

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """Checks the structure of the sources: which room may include which; that no folders include each
-other in a circle; that no file includes private headers of another folder's library; that includes
+other in a cycle; that no file includes private headers of another folder's library; that includes
 state full paths; how large a folder may be; where tests are; and that files with fmt::join include
 its header: layering.py ROOT.
 
@@ -187,7 +187,7 @@ def misplaced_tests(root):
 
 
 def room_cycles():
-    """Groups of rooms that may include each other in a circle."""
+    """The rooms that, by MAY_INCLUDE, are in a cycle of rooms that include each other."""
     seen = {room: set(rooms.split()) for room, rooms in MAY_INCLUDE.items()}
     for via in seen:
         for rooms in seen.values():
@@ -214,8 +214,8 @@ def reachable(start, edges):
 
 
 def circles(root, files):
-    """Groups of folders that include each other, or of a folder and its subfolder: to understand
-    one, readers would have to read all."""
+    """Cycles of folders that include each other, such as a folder and its subfolder. A reader would
+    have to read all folders of a cycle to understand one."""
     edges, example = {folder_of(f): set() for f in files}, {}
     for file in files:
         for match in INCLUDE.finditer((root / file).read_text()):

@@ -29,7 +29,7 @@ from program_mutants import MUTANTS as PROGRAM_MUTANTS
 ROOT = Path(__file__).resolve().parents[2]
 TIME_LIMIT = 90  # seconds that a test program may run
 
-# The folders of libph/src.
+# The folders of libph/src that are compiled.
 SOURCES = ["core", "gpu", "metric", "image", "complex", "rips", "cubical", "facade", "diagram", "vectors",
            "significance", "loops"]
 HAS_CGAL = Path("/usr/include/CGAL").is_dir()
@@ -56,8 +56,8 @@ def flags_of(package):
 
 
 def write_build(tree, programs):
-    """Writes a build file with only relative names, for which a copy of the folder is up to date as
-    well."""
+    """Writes a build file with only relative names, because a copy of the folder must be up to date
+    as well."""
     includes, libraries = [], []
     for package in ("eigen3", "fmt", "gtest_main"):
         found = flags_of(package)

@@ -12,7 +12,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-DOC = "share/doc/libph(-doc)?"  # the longer name is that of debian/rules
+DOC = "share/doc/libph(-doc)?"  # debian/rules uses the longer name
 # The least content of each component, and all that it may contain, as regular expressions.
 HAS = {
     "c": ([r"lib/.*libph_c\.so\.1"], r"lib/([^/]+/)?libph_c\.so\.\d[\d.]*"),

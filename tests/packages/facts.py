@@ -2,11 +2,11 @@
 # SPDX-License-Identifier: MIT
 """Checks that facts stated in several places agree: facts.py ROOT, or facts.py --plant ROOT.
 
-* The version is that of project() in CMakeLists.txt, and the version of the C interface is one
-  number.
+* Each stated version equals the version of project() in CMakeLists.txt, and each stated version of
+  the C interface equals PH_ABI_VERSION in ph.h.
 * debian/control requires what CMake searches for and what scripts/setup.sh installs.
-* debian/copyright names the copyright holders of files that state others than ours, and of npm
-  packages in the page. Each of its patterns matches a file. Its licence is LICENSE.
+* debian/copyright names each copyright holder that a file states, and the holders of npm packages
+  in the page. Each of its patterns matches a file. Its licence is LICENSE.
 * debian/rules makes each package of debian/control from a component.
 
 --plant plants one fault after another in a copy, and requires that each is found. Exit code 77:

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""Compares libph's barcodes with those of another program: compare.py ripser|gudhi CASES
+"""Compares libph's barcodes with the barcodes of another program: compare.py ripser|gudhi CASES
 
 Exits with 77 if the other program is not installed.
 """
@@ -29,8 +29,8 @@ def ripser_bars(case, folder):
         for i in range(1, case["points"]):
             file.write(",".join(f"{d:.0f}" for d in case["lower"][at:at + i]) + "\n")
             at += i
-    # The format is named explicitly: without the option, Debian's Ripser 1.2.1 reads another format
-    # than its help states. It also aborts on --dim 0.
+    # The format is named explicitly, because the default format of Debian's Ripser 1.2.1 is not the
+    # format that its help states. Ripser also aborts on --dim 0.
     command = ["ripser", "--format", "lower-distance", "--dim", str(max(1, case["max_dim"]))]
     if case["threshold"] is not None:
         command += ["--threshold", str(case["threshold"])]

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""Compares bars of alpha complexes with GUDHI's exact ones: compare_alpha.py CASES
+"""Compares bars of alpha complexes with the exact bars of GUDHI: compare_alpha.py CASES
 
 Exits with 77 if GUDHI is not installed.
 """

@@ -2,8 +2,8 @@
 """Commands whose output must be the same, byte for byte, wherever the programs were compiled.
 
 They read the files of examples/data, a sample of each format, random inputs for each kind of
-complex (those that tests/random_runs compares with the definition), and inputs with rounded values,
-which would reveal a different order of computation.
+complex (from tests/random_runs, which compares their bars with the definition), and inputs with
+rounded values, which would reveal a different order of computation.
 """
 import dataclasses
 import math

@@ -326,8 +326,8 @@ def lower_star(rng):
 
 
 def alpha(rng):
-    """A job for an alpha or Delaunay-Čech complex. The bars are those of the Čech complex of all
-    balls, by the nerve theorem."""
+    """A job for an alpha or Delaunay-Čech complex. By the nerve theorem, its bars are the bars of
+    the Čech complex of all balls."""
     dim = rng.choice([1, 2, 2, 3])
     style = rng.choice(["grid", "grid", "dyadic", "unit"])
     points = random_points(rng, 7, dim, style)
@@ -358,7 +358,8 @@ def periodic_alpha(rng):
     """A job for an alpha complex of points on a circle or a torus."""
     dim = rng.choice([1, 2, 2])
     points = random_points(rng, 4 if dim == 1 else 2, dim, "unit")
-    # Adds points, because images of a single point are on a common circle.
+    # Adds points, because the periodic images of a single point are not in general position: they
+    # lie on common circles.
     points += [[rng.random() for _ in range(dim)] for _ in range(dim)]
     points = sorted(map(list, {tuple(p) for p in points}), key=lambda _: rng.random())
     period = [rng.choice([1.0, 1.0, rng.uniform(0.5, 1.5)]) for _ in range(dim)]

@@ -44,9 +44,10 @@ def some_runs(one_run, first, count, keep):
 
 
 def run_all(one_run, options, name):
-    """Prints the counts, and exits with 1 if there were differences. @param one_run(seed, folder)
-    returns the kind of run, for the counts; it must be picklable, and raises Difference. @param
-    options the result of add_options. @param name for the folders that are kept."""
+    """Makes all runs, prints their counts, and exits with 1 if there were differences. @param
+    one_run(seed, folder) returns the kind of run, for the counts; it must be picklable, and raises
+    Difference. @param options the result of add_options. @param name for the folders that are
+    kept."""
     counts, failures, end = collections.Counter(), [], options.seed + options.runs
     keep = os.path.join(options.keep, name)
     with ProcessPoolExecutor(options.jobs) as pool:

@@ -159,7 +159,7 @@ def options_of(draw, task, array):
 
 
 def same(before, after):
-    """True if two arrays hold the same numbers, where NaN equals NaN."""
+    """True if two arrays have the same type and the same bytes."""
     return before.dtype == after.dtype and before.tobytes() == after.tobytes()
 
 

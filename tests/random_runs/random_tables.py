@@ -58,8 +58,8 @@ class Table:
         self.missing = self.some_missing(0.15 if draw.random() < 0.4 else 0)
 
     def some_missing(self, share):
-        """The places of missing values. Without a name in the header, a last column is never
-        missing as a whole."""
+        """The places of missing values. If no header names the last column, at least one of its
+        values is present."""
         places = {(i, k) for i in range(len(self.values)) for k in range(len(self.values[0]))
                   if self.draw.random() < share}
         if not self.header or self.index == "of R":

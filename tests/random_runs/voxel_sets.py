@@ -52,9 +52,9 @@ class Picture:
         return self.reached(filter(is_open, starts), is_open, across_corners=not self.cells)
 
     def open_hollows(self, voxels, birth):
-        """The sets of voxels that a void which is never filled may have: those that contain a
-        voxel that never enters, or, if only one axis is not periodic, everything towards one of
-        its ends."""
+        """The sets of voxels that may represent a void which is never filled: a set with a voxel
+        that never enters or, if only one axis is not periodic, everything towards one of the ends
+        of this axis."""
         inside = self.hollow([min(voxels)], birth)
         if not all(map(self.enters, inside)):
             yield inside

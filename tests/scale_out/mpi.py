@@ -2,9 +2,9 @@
 """mpi.py PH_BARCODE PH_BARCODE_MPI MPIRUN [KILLS [SEED]]: tests an image, or points, on 1 to 8
 ranks of an MPI.
 
-The bytes equal those of one process. If a rank is killed at a random time, all other ranks end
-within seconds, with an exit code other than 0 and without an output; the same command with --resume
-then makes the same bytes. A job that cannot be computed is reported and ends all ranks."""
+The ranks write the same bytes as one process. If a rank is killed at a random time, all other ranks
+end within seconds, with an exit code other than 0 and without an output; the same command with
+--resume then makes the same bytes. A job that cannot be computed is reported and ends all ranks."""
 import json
 import os
 import pathlib
@@ -158,8 +158,8 @@ def unequal(path):
 
 
 def check_sharing(mpi, one_process):
-    """Ranks divide the layers according to their content, and report how. @return the runs that
-    divided them unequally."""
+    """Ranks divide the layers according to their content, and report how. @return the number of
+    runs that divided the layers unequally."""
     unequal(mpi.folder / "unequal.npy")
     tried = 0
     for options in ([], ["--construction", "cells", "--superlevel"], ["--periodic", "0"],
@@ -217,7 +217,7 @@ def check_forecasts(mpi):
 
 
 def check_help(mpi):
-    """The help works without mpirun, its options are those that ranks accept, and its examples
+    """The help works without mpirun, it lists the options that ranks accept, and its examples
     work."""
     for topic in ("usual", "all", "man", "markdown"):
         text = mpi.help(topic)

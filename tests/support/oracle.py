@@ -151,9 +151,9 @@ def solve(matrix, right):
 
 
 def smallest_ball(points, weights=None):
-    """The squared radius of the smallest ball around some points. It is the largest circumscribed
-    ball of a subset that is also the smallest ball around this subset. Weights are subtracted from
-    squared distances."""
+    """The squared radius of the smallest ball around some points. Tries the smallest sphere through
+    each subset of at most dim + 1 points, and returns the least one that encloses all points.
+    Weights are subtracted from squared distances."""
     best = INF
     weight = dict(enumerate(weights or [0.0] * len(points)))
     dim = len(points[0])

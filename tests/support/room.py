@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A synthetic table with boxes in front of a wall, as a depth camera sees it, as an organised PCD
+"""A depth camera's view of a synthetic table with boxes in front of a wall, as an organised PCD
 file."""
 import math
 import random

@@ -145,7 +145,7 @@ def test_n_perm(rng):
         for dgm, other in zip(found["dgms"], part["dgms"]):
             assert np.allclose(dgm, other)
     angles = ripser(rng.random((40, 7)), n_perm=12, metric="cosine")
-    # These distances are exactly 0, in spite of rounding.
+    # The distance of a chosen point to itself is exactly 0, in spite of rounding.
     assert not angles["dperm2all"][np.arange(12), angles["idx_perm"]].any()
     for n_perm in (0, None, 40):
         found = ripser(points, n_perm=n_perm)

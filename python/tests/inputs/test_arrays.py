@@ -170,8 +170,7 @@ def test_memory_maps(tmp_path, mode):
 
 
 def test_a_memory_map_that_was_written_to(tmp_path):
-    """If pages of a memory map were written to, the file no longer has their content: they must not
-    be dropped."""
+    """Pages of a memory map that were written to differ from the file. They must not be dropped."""
     image = mapped(np.zeros((64, 64, 64), dtype=np.uint8), tmp_path, "c")
     image[...] = np.random.default_rng(0).integers(0, 255, size=image.shape)
     expected = image.copy()

@@ -164,7 +164,8 @@ def test_ties(rng):
     X = np.argwhere(rng.random((12, 12)) < 0.8).astype(float)
     density = rng.integers(1, 4, len(X)).astype(float)
     found = PersistenceClustering(5, min_persistence=0.5, density=lambda _: density).fit(X)
-    # The search of the estimator, with the same choice between equal distances.
+    # The estimator uses the same search, which therefore makes the same choice among equal
+    # distances.
     search = sklearn.neighbors.NearestNeighbors(n_neighbors=5).fit(X)
     expected = tomato(-np.log(density), search.kneighbors(X)[1], 0.5)
     assert np.array_equal(found.peaks_[found.labels_], expected)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Compares our vectors with the definitions of other packages. The options and factors are those of
-docs/explanation/vectors.md. The packages themselves are not called: the tests contain their
+"""Compares our vectors with the definitions of other packages. docs/explanation/vectors.md states
+the same options and factors. The packages themselves are not called: the tests contain their
 formulas."""
 import math
 

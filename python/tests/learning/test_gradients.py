@@ -106,7 +106,7 @@ def test_some_of_the_bars(rng):
 
 
 def test_far_points(rng):
-    """The squares of such distances would overflow."""
+    """The squares of the distances between far points would overflow."""
     X = rng.random((8, 2))
     d = np.array([1.0] * 7 + [0])
     small = pullback(ph.rips(X, max_dim=0), X, d_deaths=d)
@@ -322,7 +322,7 @@ def test_deciders(rng):
     births, deaths = deciders(bars, values)
     assert np.array_equal(values[births[:, 0]], bars.births)
 
-    weights = np.full(20, 5.0)  # so large that only the births of points decide
+    weights = np.full(20, 5.0)  # so large that each birth is the birth of a point
     births, deaths = deciders(ph.rips(X, weights=weights), X, weights=weights)
     assert (births[:, 0] == births[:, 1]).all()
 

@@ -57,7 +57,7 @@ def test_checks_of_parameters(kind, check):
 
 @pytest.mark.parametrize("kind", OF_LISTS + OF_DIAGRAMS, ids=of_class)
 def test_tags_say_that_there_is_no_table(kind):
-    if hasattr(kind(), "__sklearn_tags__") and hasattr(sklearn.utils, "get_tags"):  # 1.6
+    if hasattr(kind(), "__sklearn_tags__") and hasattr(sklearn.utils, "get_tags"):  # since 1.6
         assert not sklearn.utils.get_tags(kind()).input_tags.two_d_array
     else:
         assert kind()._get_tags()["X_types"] == ["3darray"]

@@ -110,7 +110,7 @@ def test_image_far_from_its_bars():
 
 
 def test_betti_curve(dgm):
-    # Each birth and each death is a step of the grid.
+    # Each birth and each death is a value of the grid.
     found = _functions.betti_curve(dgm, (-1.5, 3.5), 51)
     grid = np.linspace(-1.5, 3.5, 51)
     assert found.tolist() == [sum(b <= t < d for b, d in dgm) for t in grid]
@@ -258,7 +258,7 @@ def test_ranges():
     assert _ranges.range_of_values([np.array([[3.0, np.inf]])]) == (2.5, 3.5)
     assert _ranges.ranges_of_image([EMPTY], None, None) == ((0, 1), (0, 1))
     births, lengths = _ranges.ranges_of_image([np.array([[0.0, 1.0], [0.0, 4.0]])], None, None)
-    # Births are all 0: their range is as wide as that of the lengths.
+    # All births are 0: the range of births is as wide as the range of lengths.
     assert lengths == (0, 4) and births == (-2, 2)
     assert _ranges.ranges_of_image([np.array([[1.0, 2.0]])], (0, 3), (0, 5)) == ((0, 3), (0, 5))
     low, high = _ranges.widened(1e300, 1e300)

@@ -23,7 +23,7 @@ VOLUME = RNG.random((12, 8, 7)).astype(np.float32)
 
 
 def begun(image, count, field=2, **options):
-    """The joined parts, and the loops of each part, which have begun."""
+    """The joined parts, and for each part an ImageLoops object, which has begun."""
     parts = [ph.image_part(image, i, count, loops=True, **options) for i in range(count)]
     whole = ph.join_parts(random.Random(1).sample(parts, count))
     loops = [ph.ImageLoops(part, field=field) for part in parts]
@@ -197,7 +197,7 @@ def test_calls_out_of_order():
     for field in (4, 1, "two"):
         with pytest.raises(ph.UsageError, match="field"):
             ph.ImageLoops(part, field=field)
-    loops = ph.ImageLoops(part)  # the refused message was not consumed
+    loops = ph.ImageLoops(part)  # the refused calls have not taken the voxels of the part
     with pytest.raises(ph.UsageError, match="has lent its voxels"):
         ph.ImageLoops(part)
     assert repr(loops) == "ImageLoops(0 of 2, shape=(12, 8, 7))" and loops.is_idle
@@ -268,7 +268,7 @@ def test_what_is_lost_is_seen():
         flat.barcode(loops=bars)
     with pytest.raises(ph.DataError, match="found 2 of 3"):
         ph.join_parts([ph.image_part(VOLUME, i, 3, loops=True) for i in (0, 1)]).barcode(loops=bars)
-    # One message is lost.
+    # Drops one message.
     whole, loops = begun(VOLUME, 3)
     lost = False
     while True:

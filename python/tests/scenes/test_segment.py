@@ -114,7 +114,7 @@ def test_clouds_with_rows_and_columns(program, seed):
     found = ph.segment(cloud)
     check(found, program(path))
     assert found.labels.shape == found.voxels.of_point.shape == (120, 160)
-    # The point where the rays meet.
+    # All rays meet at this point.
     assert found.meta["viewpoint"] == pytest.approx((0.1, 0, 0), abs=1e-3)
 
 

@@ -207,7 +207,7 @@ def test_doubts_are_warnings():
 
 
 SPACE = np.random.default_rng(5).uniform(size=(1_500_000, 3)).astype(np.float32)
-LONG = {"max_range": np.inf, "plane": False, "supervoxels": 0.03, "voxel": 0.01}  # seconds
+LONG = {"max_range": np.inf, "plane": False, "supervoxels": 0.03, "voxel": 0.01}  # takes seconds
 SOON = 1.0
 
 

@@ -58,7 +58,7 @@ class Degenerate(ProgramTest):
         line = [(0.5 * i, 0.25 * i, -0.5 * i) for i in range(n)]
         self.assertEqual(self.counts(line, "--max-dim", "0"),
                          {"0,0,0.75": n - 1, "0,0,inf": 1})
-        # Nested pairs of clusters: the distance of two clusters is large compared to their size.
+        # The points are nested pairs of clusters, whose distance is large compared to their size.
         halves = [(sum(4.0 ** k for k in range(17) if i >> k & 1),) for i in range(2 ** 17)]
         bars = self.counts(halves, "--max-dim", "0")
         self.assertEqual(sum(bars.values()), 2 ** 17)

@@ -59,7 +59,7 @@ class Formats(ProgramTest):
         self.assertEqual(self.bars("b.dipha", content), "dim,birth,death\n0,0,inf\n0,0.5,2\n")
 
     def test_periodic_axes_come_from_the_file(self):
-        # A ridge along both axes of a torus, which has four classes that never die.
+        # The image is a ridge along both axes of a torus, whose four classes never die.
         values = "\n0 1 1\n1 1 1\n1 1 1\n"
         torus = self.bars("t.perseus", "2\n-3 -3" + values)
         self.assertEqual(torus.count("inf"), 4)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Tests H0 of the data that ph-barcode reads from a file, and its notes about the data. Compares
-them with the numbers from which the file was written. Shared by guesses.py and
+"""Compares H0 of a file, as ph-barcode computes it, with H0 of the numbers from which the file was
+written. Also checks the notes that ph-barcode prints about the file. Shared by guesses.py and
 guesses_tables.py."""
 import math
 import os

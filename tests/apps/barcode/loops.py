@@ -87,7 +87,7 @@ class Loops(ProgramTest):
         self.write("gaps.txt", "\n".join(lines) + "\n")
         (bar,) = self.loops("gaps.txt", "--nan", "drop")
         self.assertEqual(bar["loops"][0]["vertices"], [1, 2, 3, 5, 6, 7, 8, 9, 10, 11, 12, 13])
-        # Loops of a subsample of the points.
+        # For a subsample, the vertices are numbers of all points.
         points = ring(40)
         self.write("many.txt", text(points))
         (bar,) = self.loops("many.txt", "--subsample", "10")
@@ -98,12 +98,12 @@ class Loops(ProgramTest):
         self.assertAlmostEqual(
             loop["length"],
             sum(math.dist(points[a], points[b]) for a, b in zip(walk, walk[1:])))
-        # Loops of a subsample if rows with NaN are left out.
+        # The numbers also count the rows with NaN, which are left out.
         lines = text(points).splitlines()
         self.write("both.txt", "\n".join(["nan nan"] * 5 + lines) + "\n")
         (bar,) = self.loops("both.txt", "--subsample", "10", "--nan", "drop")
         self.assertEqual(bar["loops"][0]["vertices"], [v + 5 for v in loop["vertices"]])
-        # Loops if each point occurs twice.
+        # Each point occurs twice.
         self.write("twice.txt", text(points + points))
         for bar in self.loops("twice.txt"):
             self.assertLess(max(bar["loops"][0]["vertices"]), 80)

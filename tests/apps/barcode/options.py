@@ -148,7 +148,7 @@ class Options(ProgramTest):
             self.assertIn(what, self.expect(code, *arguments).stderr)
 
     def test_points_as_voxels(self):
-        # Two groups of points, with two empty voxels between them.
+        # Two empty voxels separate two groups of points.
         self.write("line.txt", "0.5\n0.7\n3.5\n3.6\n3.7\n")
         cubical = ("line.txt", "--complex", "cubical", "--voxel", "1")
         self.assertEqual(self.bars(*cubical), [(0, 0, 1), (0, 0, math.inf)])
@@ -237,7 +237,7 @@ class Options(ProgramTest):
 
     def test_dtm(self):
         self.write("line.txt", "0\n1\n9\n")
-        # The values for two neighbours, where a point counts as its own neighbour.
+        # A point counts as one of its own two neighbours.
         f = [math.sqrt(0.5), math.sqrt(0.5), math.sqrt(32)]
         run = self.expect(0, "line.txt", "--dtm", "2", "--output-format", "json", "--check")
         result = json.loads(run.stdout)

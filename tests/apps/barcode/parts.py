@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Parts computed by separate processes: compares the result of --join with that of one process."""
+"""Parts computed by separate processes: compares the result of --join with the result of one
+process."""
 import csv
 import io
 import json

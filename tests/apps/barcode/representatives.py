@@ -206,7 +206,8 @@ class Representatives(ProgramTest):
         self.assertEqual(len(json.loads(self.read("out.json"))["bars"][4]["representative"]), 4)
 
     def test_threshold_cuts_cocycles(self):
-        # A strip of two triangles, of which the second lies beyond the threshold.
+        # The threshold cuts off both triangles of a strip, and with the second one its new vertex
+        # and edges.
         self.write("strip.txt", "0 : 0\n1 : 0\n2 : 0\n3 : 5\n0 1 : 1\n1 2 : 1\n0 2 : 2\n"
                    "1 3 : 5\n2 3 : 5\n0 1 2 : 6\n1 2 3 : 5\n")
         bars = self.bars("strip.txt", "--format", "simplices", "--threshold", "4",

@@ -45,7 +45,7 @@ class Signals(ProgramTest):
         return run.returncode, seconds
 
     def expect_end(self, start, delay, code, *numbers):
-        """Sends signals to a run that `start` returns, and checks that it was still running before.
+        """Sends signals to a run that `start` returns, which must not have ended before.
         @param delay seconds before the signals. @param code the expected exit code."""
         for _ in range(TRIES):
             run = start()
@@ -159,7 +159,7 @@ class RandomMoments(ProgramTest):
         slowest, met = 0, 0
         while met < self.INTERRUPTS:
             code, seconds = self.meet_in_time(signal.SIGINT)
-            # -SIGINT: the signal came before main began.
+            # -SIGINT: the signal came before the program had installed its handler.
             self.assertIn(code, (0, 130, -signal.SIGINT))
             self.assertEqual(self.files(), ["out.json", "picture.pgm", "square.txt"])
             met += code != 0

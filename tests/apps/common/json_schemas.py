@@ -32,7 +32,7 @@ def closed(schema):
             if "properties" in part:
                 part.setdefault("additionalProperties", False)
             for key, inner in part.items():
-                # These only state dependencies between members.
+                # These keywords only state dependencies between members.
                 if key not in ("if", "then", "else", "allOf"):
                     close(inner)
         elif isinstance(part, list):

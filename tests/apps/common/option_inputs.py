@@ -11,11 +11,11 @@ with each kind of input. It runs the program with and without the option. The op
 Any other option was silently ignored (SILENT), and the test fails. The test also fails if the
 option turns the input into bad data without a message about the option, or if the program does not
 obey the option. For an option with choices (the help lists them as a|b|c), each choice is tried: it
-is refused by name, or its result differs from that of every other choice.
+is refused by name, or its result differs from the result of every other choice.
 
-The options are those that --help all lists. An option without a row in option_inputs_PROGRAM.py is
-tried with its last choice, or with a sample value for its placeholder; if there is no sample, the
-test fails. The table is written to TABLE.csv. With OPTION..., only these options are tested."""
+`--help all` lists the options to test. An option without a row in option_inputs_PROGRAM.py is tried
+with its last choice, or with a sample value for its placeholder; if there is no sample, the test
+fails. The table is written to TABLE.csv. With OPTION..., only these options are tested."""
 import collections
 import concurrent.futures
 import csv
@@ -56,7 +56,7 @@ class Row:
     default: other arguments, which change the result, if `arguments` only state the default.
     unfit: a pattern for the message of a run that fails (64, 65) because the input does not fit
     this option or another one; the name of the option is always accepted.
-    choices: the choices to try, each with a different result; by default those of the help.
+    choices: the choices to try, each with a different result; by default the choices in the help.
     alike: choices that have the same result as another choice."""
 
     def __init__(self, *arguments, variant="plain", beside=(), sign=None, lost=None, default=(),
@@ -93,8 +93,8 @@ def options_of(program):
 
 
 def result_of(content):
-    """The JSON (for a stream, one document per line) without the parts that differ from run to
-    run."""
+    """The content without the parts that differ from run to run. JSON may consist of one document
+    per line, as for a stream."""
     if not content.startswith(b"{"):  # lines of numbers are JSON as well, but the same in each run
         return re.sub(MEMORY, b"", content) if b"memory " in content else content
     try:
@@ -138,7 +138,7 @@ class Run:
 
 
 class Runs:
-    """Runs programs; each input and each run is made only once."""
+    """Runs programs. A run with the same arguments and files is made only once."""
 
     def __init__(self):
         self.known, self.lock = {}, threading.Lock()

@@ -125,8 +125,9 @@ def is_complete(name, content, want):
 
 
 def check(folder, case, known, wrong):
-    """Makes each call fail. Of the calls that this run shares with the beginning of the run
-    `known`, only a few fail. @return the sizes that the run requests."""
+    """Makes one call in EVERY fail, in two ways. Of the calls that this run shares with the
+    beginning of the run `known`, only one in SAMPLED of these fails. @return the sizes that the run
+    requests."""
     program, arguments, outputs = case
     sizes, want = calls_of(folder, *case)
     assert set(want) == set(outputs.values()) - {"/dev/null"}, want.keys()

@@ -50,7 +50,7 @@ class GroupsTest(ProgramTest):
             dealt = [loss_of(DEATHS, ["low" if i in low else "high" for i in range(7)], power)
                      for low in itertools.combinations(range(7), 4)]
             exact = sum(x <= loss * (1 + 1e-12) for x in dealt) / len(dealt)
-            # The tolerance is five standard deviations of the count among 4000 shuffles.
+            # The tolerance is five standard deviations of the share of shuffles, plus one shuffle.
             self.assertLess(abs(float(row["p"]) - exact), 5 * math.sqrt(exact * (1 - exact) / 4000) + 1 / 4000)
 
     def test_groups_that_do_not_differ(self):

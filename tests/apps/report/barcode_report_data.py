@@ -52,12 +52,12 @@ class Data(ReportTest):
             labels = report.leaf_labels(cut)
             self.assertEqual(max(labels), sum(d > cut for d in finite))
         self.assertEqual(len(report["points/leaf"]), 53)
-        # These points are equal.
+        # Points 50 and 51 are equal.
         self.assertEqual(report["points/leaf"][50], report["points/leaf"][51])
 
     def test_the_first_cut_is_in_the_widest_gap(self):
         self.write("c.txt", "0\n1\n2\n10\n11\n")
-        # The geometric mean of 1 and 8.
+        # The first cut is the geometric mean of 1 and 8, rounded to three digits.
         self.assertEqual(self.report("c.txt").meta["tree"]["cut"], 2.83)
         self.write("c.txt", "0\n1\n2.1\n3.1\n")
         self.assertEqual(self.report("c.txt").meta["tree"]["cut"], 1.1)  # no ratio is large
@@ -323,8 +323,8 @@ class Data(ReportTest):
         self.assertNotIn("triangles_below", report.meta["cloud"])
 
     def test_the_default_cut_is_below_what_stands_out(self):
-        # The largest ratio of consecutive lengths, between 0.01 and 0.0001, is far below the
-        # longest bar.
+        # The largest ratio of consecutive lengths, of 0.009 to 0.0001, is far below the longest
+        # bar. The cut is in the next largest ratio, of 0.5 to 0.01.
         self.write("p.txt", "0\n0.0001\n0.0101\n0.0191\n0.5191\n1.5191\n")
         cut = self.report("p.txt", "--max-dim", "0").meta["tree"]["cut"]
         self.assertTrue(0.01 < cut < 0.5, cut)

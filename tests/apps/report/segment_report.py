@@ -78,8 +78,7 @@ class Reports(ProgramTest):
         return report
 
     def expect_cuts(self, scene, options, cuts):
-        """Checks that the segments of the page at some cuts equal those of the program, at every
-        point."""
+        """Checks that, at some cuts, the page and the program give every point the same segment."""
         report = self.expect_answer(scene, *options)
         tree = report.meta["tree"]
         points = len(self.read("l.csv").split())

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""tuning_table.py PH_SEGMENT TUNING.md: checks that the defaults in the table of
-docs/how-to/tuning.md are those that the program states and uses."""
+"""tuning_table.py PH_SEGMENT TUNING.md: checks that the program states and uses the defaults in the
+table of docs/how-to/tuning.md."""
 import json
 import os
 import re

@@ -124,7 +124,7 @@ class Fits(ProgramTest):
         self.write("bad.json", "{")
         self.expect(65, "a.csv", "--fitted", "bad.json")
         self.write("more.json", json.dumps({**self.fit("betti"), "new": [1, {"a": 2}]}))
-        # A fit of a later version, with new members.
+        # Unknown members are ignored, because a later version may have written them.
         self.expect(0, "a.csv", "--fitted", "more.json")
 
     def test_too_few_bars_for_centres(self):

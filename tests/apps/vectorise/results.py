@@ -241,7 +241,7 @@ class Results(ProgramTest):
         expected = self.expect(0, "bytes.npy", *grid_of).stdout
         run = self.expect(0, "bytes.npy", *grid_of, "--memory-limit", "1MB", "--threads", "1")
         self.assertEqual(run.stdout, expected)
-        # The Euler characteristic of a box.
+        # At the last value, the complex is the whole box, which has the Euler characteristic 1.
         self.assertEqual(expected.splitlines()[1].split(",")[-1], "1")
 
     def test_threads_and_memory(self):

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""Calls of the Python package that make no sense, or only seem to make none: arrays of wrong types,
-shapes and layouts, objects with contradictory properties, options of wrong types, unrelated parts
-and files."""
+"""Calls of the Python package that are senseless, or only seem to be senseless: arrays of wrong
+types, shapes and layouts, objects with contradictory properties, options of wrong types, unrelated
+parts and files."""
 import os
 import pickle
 import sys

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""run_calls.py python FOLDER | c LIBRARY [WORDS…]: runs meaningless calls (those whose text
-contains the words), each in a separate process, and checks the exception or result and its message.
-FOLDER contains the Python package; LIBRARY is libph_c.so."""
+"""run_calls.py python FOLDER | c LIBRARY [WORDS…]: runs senseless calls, each in a separate
+process, and checks the exception or result and its message. FOLDER contains the Python package;
+LIBRARY is libph_c.so. With WORDS, it runs only the calls whose text contains all of them."""
 import collections
 import os
 import re

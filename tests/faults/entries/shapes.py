@@ -76,7 +76,7 @@ def spreads():
                 "1.7976931348623157e308 0\n", bars("0,0,1.7976931348623157e+308", "0,0,inf"))
     yield taken(89, "points", "manhattan", "0 0\n3e300 4e300\n", bars("0,0,7e+300", "0,0,inf"),
                 "--metric", "manhattan")
-    # Pairs at infinite distance are not edges.
+    # A distance beyond the largest double is refused.
     for metric in ("euclidean", "manhattan", "chebyshev"):
         yield refused(89, "points", f"twice the largest double, {metric}", "-1.7e308 0\n1.7e308 0\n",
                       "two points are farther apart than the largest double", "--metric", metric)
@@ -141,7 +141,7 @@ def organised():
 
 
 def written(path, *parts):
-    """A check that, after the run, the file has these bytes."""
+    """A check that, after the run, the file contains each of these parts."""
     def check(folder):
         with open(os.path.join(folder, path), "rb") as file:
             content = file.read()

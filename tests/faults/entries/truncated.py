@@ -24,7 +24,8 @@ def form_of(sample):
 
 
 def without_its_end(sample):
-    """The content without its last byte or, for text, without its last token."""
+    """The content without its last byte or, for text, without its line end and its last character,
+    which is the last token."""
     content = sample.content
     return content[:-1] if not content.endswith(b"\n") else content.rstrip(b"\n")[:-1]
 

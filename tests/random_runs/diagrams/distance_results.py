@@ -135,7 +135,7 @@ def read_tests(program, task, content):
 
 
 def read_matrix(program, task, folder):
-    """@return the distances in the form of read_distances, as if each were exact."""
+    """@return the square matrix of distances, row by row."""
     content = pathlib.Path(folder, task.matrix).read_bytes()
     count = len(task.names)
     if task.matrix.endswith(".npy"):
@@ -153,8 +153,8 @@ def read_matrix(program, task, folder):
 
 
 def read_matching(program, task, folder):
-    """@return rows (dim, a, b, bar of a, bar of b, cost). None in place of a bar is the
-    diagonal."""
+    """@return rows (dim, number of the bar of a, number of the bar of b, both ends of the bar of a,
+    both ends of the bar of b, cost). The number is None for a place on the diagonal."""
     text = pathlib.Path(folder, task.matching).read_text(encoding="utf-8")
     if task.matching.endswith(".csv"):
         found = []

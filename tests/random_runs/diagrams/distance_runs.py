@@ -13,7 +13,7 @@ from random_runs import damaged
 
 INF = math.inf
 SMALL = 1e-307  # smaller doubles have fewer digits
-LEAST = 1e-150  # relative to the cost of all bars unmatched; the squares of smaller numbers are 0
+LEAST = 1e-150  # relative to the cost of all bars unmatched, both to the power of the order
 
 
 def expected_of(task, a, b):
@@ -43,9 +43,9 @@ def is_known(task, value, lower, exact, alone):
             lower == value if task.error == 0 else value <= (1 + task.error) * lower * (1 + 1e-15))
     if task.distance == "sliced":
         return value == lower and abs(value - exact) <= 1e-12 * exact + 1e-15 * alone + SMALL
-    # Costs to the power of the order agree up to 1e-12 of their size, or up to 1e-14 of the cost of
-    # all bars unmatched. Differences below 1e-300 of that cost do not count, because powers of
-    # smaller numbers are 0.
+    # The numbers below are costs to the power of the order, as shares of the cost of all bars
+    # unmatched. They agree up to 1e-12 of their size. Differences below LEAST do not count, because
+    # powers of smaller costs may be 0.
     if max(exact, value) <= SMALL or alone == 0:
         return value <= SMALL
 
@@ -133,7 +133,7 @@ def compare_matching(program, task, folder, found):
         total = largest
         if task.order < INF and largest > 0:
             total = largest * math.fsum((c / largest) ** task.order for c in all_costs) ** (1 / task.order)
-        # Powers of costs that are far below those of unmatched bars underflow.
+        # Powers of costs that are far below the cost of all bars unmatched underflow.
         alone = expected_of(task, *bars)[1]
         if task.order < INF and total < alone * 1e-300 ** (1 / task.order):
             continue
@@ -152,7 +152,7 @@ def compare_tests(program, task, found):
         unit = max(map(max, square)) or 1.0
         square = [[x / unit for x in row] for row in square]
         exact = oracle.loss(square, task.labels, task.power)
-        # In this case, the loss is outside the range of doubles.
+        # Such a loss is near the limits of doubles or beyond them, and is not checked.
         is_vast = abs(math.log10(unit)) * task.power > 290
         scale = math.nan if is_vast else unit ** task.power
         doubt = (1 + task.error) ** task.power - 1 + 1e-11

@@ -64,7 +64,7 @@ def expected_refusal(task):
         for points in of_dims:
             far = max(abs(x) for bar in points for x in bar)
             if any(math.dist(p, q) < far * 1e-150 for p, q in itertools.combinations(points, 2)):
-                return [0, 64], ["widths > 0"]  # the squares of their distances are 0
+                return [0, 64], ["widths > 0"]  # the square of such a distance is 0
     longest = max((e - b for _, b, e in used if e - b < INF), default=0.0)
     if task.kind == "image" and longest > 0 and task.power * math.log10(longest) > 300:
         return [0, 65], ["expected a weight below infinity"]  # the bar may be outside the pixels
@@ -188,7 +188,7 @@ def compare_fit(program, task, fit, block, dim, diagrams):
             program.differ(f"found other centres: {block}")
         near = min((math.dist(p, q) for p, q in itertools.combinations(set(points), 2)), default=far)
         if near < far * 1e-150:
-            return  # the squares of their distances are 0
+            return  # the square of such a distance is 0
         if not oracle.are_means(points, centres, 1e-12 * far):
             program.differ(f"found centres that are no means: {block}, points {points}")
         widths = oracle.widths(points, centres)

@@ -116,7 +116,7 @@ def explain(rng, np_rng, program, check, tree, source, names):
 
 
 def stored_tree(rng, np_rng, program, check, tree, source, names):
-    """Cuts a stored tree with the same options, and with others."""
+    """Cuts a stored tree with the same options, and with other options."""
     program.must([*plain_words(check, source), ["--tree", "t.tree"], ["--labels", "first.npy"]])
     check.stored(program.output("t.tree"), tree)
     program.must([["t.tree"], ["--labels", "second.npy"], ["--tree", "again.tree"], ["--json", "again.json"]])
@@ -129,7 +129,7 @@ def stored_tree(rng, np_rng, program, check, tree, source, names):
     scenes.other_cut(rng, asked, check.scene)
     program.must([["t.tree"], *cut_options(asked), ["--labels", "second.npy"]])
     if check.json["plane"]["found"] and asked.method == "surface":
-        return  # vessels and walls are those of the first cut
+        return  # the tree keeps the walls and bottoms of vessels of the first cut
     program.must([*source, *check.file.options, *dataclasses.replace(asked).options(), ["--labels", "first.npy"]])
     require(program.output("first.npy") == program.output("second.npy"), "another cut of a stored tree: other bytes")
 

@@ -47,7 +47,7 @@ def table(rng, np_rng, size):
 
 
 def relief(rng, np_rng, size):
-    """A dense surface with valleys where basins meet: bumps, balls or boxes side by side."""
+    """A dense surface with valleys where basins meet: bumps, ridges or steps side by side."""
     n = rng.choice([15, 25, 35])
     side = np.linspace(-size / 2, size / 2, n)
     x, y = (a.reshape(-1) for a in np.meshgrid(side, side))

@@ -35,7 +35,7 @@ def write_points(path, count, dim, digits=6):
 
 def write_image(path, extents):
     """Writes an image in DIPHA's format, in pieces, because the memory of this process counts
-    together with that of its children."""
+    together with the memory of its children."""
     count = 1
     for n in extents:
         count *= n
@@ -207,8 +207,8 @@ class System(ProgramTest):
             self.assertEqual(self.files(), ["many.txt", "square.txt"])
 
     def heap_limit_after(self, failures, soft):
-        """The limit of the heap (RLIMIT_DATA) while a batch waits for its last input, after inputs
-        that failed."""
+        """The limit of the heap (RLIMIT_DATA) of a batch that waits for its last input after
+        `failures` inputs have failed. @param soft the limit at its start."""
         inputs = [f"{i}.dipha" for i in range(failures)]
         for name in inputs:
             write_image(self.path(name), (40, 40, 40))

@@ -39,8 +39,8 @@ def peak_of(arguments, folder, seconds=None):
 
 
 class UnderLimit(ProgramTest):
-    """A class has a function `write_inputs`, which writes the inputs of its tests. It runs once for
-    all classes that share it."""
+    """Tests under a limit. Each subclass has a function `write_inputs`, which writes the inputs of
+    its tests. Subclasses that share the function also share the inputs: it runs only once."""
     written = set()
 
     @classmethod

@@ -111,8 +111,8 @@ class Completion:
         self.check(shell, "ph-barcode x --plot pa", ["of.svg"])
 
     def hidden(self, files):
-        """The files that the shell hides: those that it does not offer. Fish hides none, because it
-        offers files with another extension as well, after the others."""
+        """The files that the shell does not offer. Fish offers all files: it only moves files with
+        another extension to the end."""
         return [] if self.shell == "fish" else files
 
     def test_the_first_word(self):
