@@ -72,7 +72,7 @@ class Reader {
     std::optional<std::int64_t> length;
     for_each_member([&](const std::string& name) {
       const std::size_t place = json_.place();
-      if (!seen.insert(name).second) json_.fail(place, {name, "it twice", "it once", {}});
+      if (!seen.insert(name).second) json_.fail(place, {name, "a second one", "one", {}});
       if (name == "format") {
         if (const std::string value = json_.string(); value != kFormat)
           json_.fail(place, {"format", printable(value, 40), std::string(kFormat), {}});

@@ -131,7 +131,7 @@ class TreeReader {
       surface.plane.offset = number("offset of a surface");
       surface.plane.share = number("share of a surface", 0, 1);
       if (k == 0 && surface.plane != *scene_.plane)
-        fail("first surface", "another plane", "the plane of the header");
+        fail("first surface", "a different plane", "the plane of the header");
     }
   }
 

@@ -113,7 +113,7 @@ TEST_F(DepthImages, CamerasByFile) {
             "x 248"))
       << err();
   EXPECT_EQ(run("d.png --camera odd.yaml"), 65);
-  EXPECT_TRUE(notes("odd.yaml:5:1: model of the lens, found \"odd\"")) << err();
+  EXPECT_TRUE(notes("odd.yaml:5:1: lens model, found \"odd\"")) << err();
   EXPECT_EQ(run("d.png --camera missing.yaml"), 66);
   EXPECT_EQ(run("d.png --camera c.yaml" + intrinsics_), 64);
   EXPECT_EQ(run("scene.pcd --camera c.yaml"), 64);

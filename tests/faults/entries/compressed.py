@@ -35,9 +35,9 @@ def lzf_lies():
             ("size of 4e9", lzf_cloud(packed, size, 2 ** 32 - 1), "uncompressed size"),
             ("less data", lzf_cloud(lzf(raw[:-1]), len(lzf(raw[:-1])), count), "less data than declared"),
             ("a match before the data", lzf_cloud(b"\x20\xff" + packed[2:], size, count),
-             "a match starts before the data"),
-            ("a match behind the data", lzf_cloud(b"\0\0\xe0", 3, count), "a match ends after"),
-            ("literals behind the data", lzf_cloud(b"\x1f\0", 2, count), "literals end after"),
+             "a match that starts before the data"),
+            ("a match behind the data", lzf_cloud(b"\0\0\xe0", 3, count), "a match that ends after"),
+            ("literals behind the data", lzf_cloud(b"\x1f\0", 2, count), "literals that end after"),
             ("more data", lzf_cloud(b"\0\0\xe0\x80\0", 5, count), "more data than declared"),
             ("no sizes", PACKED + b"\1\0", "truncated")):
         yield refused(39, "pcd", f"LZF, {name}", content, message)

@@ -90,7 +90,7 @@ CAMERAS = [
     ("a width of 10^12", "c.yaml", with_change(YAML, b"640", b"1000000000000"), ":1:14: "),
     ("a list that nobody ends", "c.yaml", with_change(YAML, b"1.0]\ndist", b"1.0\ndist"), ":7:1: "),
     ("lists in lists", "c.yaml", with_change(YAML, b"[525.0", b"[" * 1000 + b"525.0"), ":6:10: "),
-    ("a key twice", "c.yaml", YAML + b"image_width: 320\n", "a key twice"),
+    ("a key twice", "c.yaml", YAML + b"image_width: 320\n", "a repeated key"),
     ("an alias that grows", "c.yaml",
      b"a: &a [x, x]\nb: &b [*a, *a]\nc: &c [*b, *b]\nd: &d [*c, *c]\n" + YAML, "anchor or alias"),
     ("more than a camera takes", "c.yaml", YAML + b"# " + b"x" * (1 << 21) + b"\n", "found 2097"),
@@ -102,10 +102,11 @@ CAMERAS = [
      "column by column"),
     ("JSON with 1e999", "c.json", with_change(OPEN3D, b"319.5", b"1e999"), "number out of range"),
     ("JSON with a number that begins with a point", "c.json", with_change(OPEN3D, b"319.5", b".5"),
-     r"not a number of JSON, found \.5"),
+     r"not a JSON number, found \.5"),
     ("JSON without an end", "c.json", OPEN3D[:-1], "end of the file"),
     ("JSON with its matrix twice", "c.json",
-     with_change(OPEN3D, b"}", b', "intrinsic_matrix": [1, 0, 0, 0, 1, 0, 0, 0, 1]}'), "it again"),
+     with_change(OPEN3D, b"}", b', "intrinsic_matrix": [1, 0, 0, 0, 1, 0, 0, 0, 1]}'),
+     "intrinsic_matrix, found a second one"),
     ("JSON nested a hundred thousand times", "c.json", b'{"a":' * 100_000, "nested too deeply"),
 ]
 

@@ -58,8 +58,8 @@ TEST(ReadAny, SaysWhatEachDiphaFileIs) {
   EXPECT_TRUE(contains(bad_data([&] { any(dipha(2)); }), "a persistence diagram"));
   for (const std::int64_t type : {0, 2, 7, 8}) {
     const std::string bytes = dipha(type);
-    EXPECT_TRUE(
-        contains(bad_data([&] { read_image(Input::view(bytes, "f")); }), "another DIPHA file"));
+    EXPECT_TRUE(contains(bad_data([&] { read_image(Input::view(bytes, "f")); }),
+                         "another type of DIPHA file"));
   }
 }
 

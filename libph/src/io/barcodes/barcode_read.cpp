@@ -15,7 +15,8 @@ namespace {
 
 Barcode read_dipha(const Input& input) {
   if (detail::dipha_type(input) != detail::DiphaType::diagram) {
-    input.fail_at_byte(8, {"not a persistence diagram", "another DIPHA file", "file type 2", {}});
+    input.fail_at_byte(8,
+                       {"not a persistence diagram", "another type of DIPHA file", "type 2", {}});
   }
   BinaryCursor cursor(input, std::endian::little, 16);
   constexpr std::size_t kBar = 24;
@@ -120,7 +121,7 @@ Fault fault_of_bar(const Bar& bar) {
   }
   if (!(bar.death >= bar.birth)) {
     return {"a bar that dies before its birth",
-            fmt::format("{} and {}", shortest(bar.birth), shortest(bar.death)),
+            fmt::format("birth {} and death {}", shortest(bar.birth), shortest(bar.death)),
             "birth <= death",
             {}};
   }

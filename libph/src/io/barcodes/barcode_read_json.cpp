@@ -182,10 +182,10 @@ class Reader {
       } else if (name == "version") {
         json_.integer(1, 1, "version");
       } else if (name == "representatives") {
-        if (bars) json_.fail(place, {"representatives", "them after the bars", "before", {}});
+        if (bars) json_.fail(place, {"representatives", "it after the bars", "it before them", {}});
         representatives_ = representatives();
       } else if (name == "bars") {
-        if (bars) json_.fail(place, {"bars", "them again", "them once", {}});
+        if (bars) json_.fail(place, {"bars", "a second list", "one", {}});
         bars = true;
         read_bars();
       } else if (!info.read(name)) {
@@ -246,7 +246,7 @@ class Reader {
     coefficients_.clear();
     json_.expect('{');
     const auto once = [&](bool& seen) {
-      if (seen) json_.fail(json_.place(), {name, "it again", "it once in a bar", {}});
+      if (seen) json_.fail(json_.place(), {name, "a second one", "one per bar", {}});
       seen = true;
     };
     while (json_.next_member(first, name)) {
@@ -299,7 +299,8 @@ class Reader {
 
   void set_kind(CellKind kind, std::size_t place) {
     if (any_cell_ && kind != kind_) {
-      json_.fail(place, {"cell", "another kind than before", "cells of one kind", {}});
+      json_.fail(place,
+                 {"cell", "a kind that differs from earlier cells", "cells of one kind", {}});
     }
     any_cell_ = true;
     kind_ = kind;
@@ -369,7 +370,7 @@ class Reader {
       const std::size_t numbers = chain_.size() - before;
       if (numbers == 0 || chain_.size() != numbers * coefficients_.size() || coefficient == 0) {
         json_.fail(place, {"representative",
-                           "cells of different sizes or without coefficient",
+                           "cells of different sizes or without a coefficient",
                            "cells of one dimension, each with its coefficient",
                            {}});
       }

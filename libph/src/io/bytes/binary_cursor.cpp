@@ -41,7 +41,7 @@ void BinaryCursor::expect_end() const {
   if (remaining() > 0) {
     input_.fail_at_byte(
         offset_,
-        {"trailing data", fmt::format("{} bytes more", remaining()), "the end of the file", {}});
+        {"trailing data", fmt::format("{} more bytes", remaining()), "the end of the file", {}});
   }
 }
 

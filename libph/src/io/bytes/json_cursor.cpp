@@ -180,8 +180,7 @@ std::string_view JsonCursor::number_word() {
   const std::size_t stop = std::min(text_.find_first_not_of("+-0123456789.eE", at_), text_.size());
   const std::string_view word = text_.substr(at_, stop - at_);
   if (word.empty() || word[0] == '+') fail(at_, {"JSON", found(), "a number", {}});
-  if (!is_json_number(word))
-    fail(at_, {"not a number of JSON", printable(word, 40), "a number", {}});
+  if (!is_json_number(word)) fail(at_, {"not a JSON number", printable(word, 40), "a number", {}});
   return word;
 }
 
@@ -212,7 +211,8 @@ std::int64_t JsonCursor::integer(std::int64_t least, std::int64_t most, const ch
 
 void JsonCursor::skip_value(int depth) {
   if (depth > kMostDepth) {
-    fail(at_, {"JSON", "values nested too deeply", fmt::format("at most {}", kMostDepth), {}});
+    fail(at_,
+         {"JSON", "values nested too deeply", fmt::format("at most {} levels", kMostDepth), {}});
   }
   bool first = true;
   std::string name;

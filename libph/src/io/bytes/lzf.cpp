@@ -75,7 +75,7 @@ LzfFault lzf_decompress(std::span<const std::byte> in, std::size_t size, const L
     const auto control = std::to_integer<std::size_t>(in[i]);
     if (control < kMaxLiterals) {
       const std::size_t run = control + 1;
-      if (run > in.size() - i - 1) return fault("literals end after the data");
+      if (run > in.size() - i - 1) return fault("literals that end after the data");
       if (run > left) return fault("more data than declared");
       std::memcpy(out + o, in.data() + i + 1, in.size() - i > kSlack ? kSlack : run);
       i += 1 + run;
@@ -85,11 +85,11 @@ LzfFault lzf_decompress(std::span<const std::byte> in, std::size_t size, const L
     }
     std::size_t length = (control >> 5) + 2;
     const std::size_t bytes = length == 9 ? 3 : 2;
-    if (bytes > in.size() - i) return fault("a match ends after the data");
+    if (bytes > in.size() - i) return fault("a match that ends after the data");
     if (bytes == 3) length += std::to_integer<std::size_t>(in[i + 1]);
     const std::size_t distance =
         ((control & 31) << 8 | std::to_integer<std::size_t>(in[i + bytes - 1])) + 1;
-    if (distance > o) return fault("a match starts before the data");
+    if (distance > o) return fault("a match that starts before the data");
     if (length > left) return fault("more data than declared");
     copy_match(out + o, distance, length);
     i += bytes;

@@ -132,7 +132,7 @@ void gunzip_into(Buffer& bytes, const Input& input, std::size_t most) {
                          {"compressed data expand too much",
                           fmt::format("more than {} MiB", (goes_on ? stated : before) >> 20),
                           fmt::format("at most {} times {} bytes", kMostExpansion, packed.size()),
-                          "if that is right, unpack it first"});
+                          "if that is right, unpack them first"});
     }
     if (before >= most) {
       throw Error(ErrorKind::resource,
@@ -159,7 +159,7 @@ void gunzip_into(Buffer& bytes, const Input& input, std::size_t most) {
     if (rest.empty()) return;
     if (!is_gzip(rest)) {
       input.fail_at_byte(inflater.used(), {"trailing data after gzip data",
-                                           fmt::format("{} bytes more", rest.size()),
+                                           fmt::format("{} more bytes", rest.size()),
                                            "the end of the file or another member",
                                            {}});
     }

@@ -109,7 +109,7 @@ void YamlWords::take_key(std::string_view line, std::size_t indent) {
   path += lower_case(unquoted(trimmed(content.substr(0, colon))));
   const auto [entry, is_new] = values_.emplace(path, Value{number_, indent + 1, {}});
   if (!is_new) {
-    fail(indent + 1, {"a key twice",
+    fail(indent + 1, {"a repeated key",
                       printable(path, kShown),
                       fmt::format("it only in line {}", entry->second.line),
                       {}});
@@ -168,7 +168,7 @@ void YamlWords::take_list(Value& value, std::string_view rest, std::size_t colum
     if (!ends) continue;
     list_ = nullptr;
     if (!trimmed(rest).empty())
-      fail(column, {"something after a list", quoted(trimmed(rest)), "the end of the line", {}});
+      fail(column, {"text after a list", quoted(trimmed(rest)), "the end of the line", {}});
     return;
   }
 }

@@ -136,10 +136,8 @@ class CameraYaml {
         return detail::number_in(word.text) == 0.0;
       };
       if (value == nullptr || std::ranges::all_of(value->words, is_zero)) continue;
-      fail(*value, {"coefficients of the lens",
-                    '"' + std::string(name) + '"',
-                    "distortion_coefficients",
-                    {}});
+      fail(*value,
+           {"lens coefficients", '"' + std::string(name) + '"', "distortion_coefficients", {}});
     }
   }
 
@@ -172,7 +170,7 @@ class CameraYaml {
       least = most = 4;
     } else {
       fail(named == nullptr ? *value : *named,
-           {"model of the lens",
+           {"lens model",
             named == nullptr ? fmt::format("none, and {} coefficients", d.size())
                              : '"' + printable(name, 40) + '"',
             "plumb_bob, rational_polynomial or equidistant",
@@ -222,7 +220,7 @@ void read_members(detail::JsonCursor& json, Camera& camera, bool& has_matrix, bo
     } else if (name == "intrinsic_matrix") {
       json.peek();
       const std::size_t place = json.place();
-      if (has_matrix) json.fail(place, {"intrinsic_matrix", "it again", "it once", {}});
+      if (has_matrix) json.fail(place, {"intrinsic_matrix", "a second one", "one", {}});
       std::vector<double> k;
       json.expect('[');
       for (bool first_number = true; json.next_element(first_number);) k.push_back(json.number());
@@ -263,7 +261,7 @@ Camera read_json(const Input& input) {
   read_members(json, camera, has_matrix);
   json.expect_end();
   if (!has_matrix || camera.width == 0 || camera.height == 0) {
-    input.fail({"not a camera of Open3D",
+    input.fail({"not an Open3D camera",
                 fmt::format("{} intrinsic_matrix, width {}, height {}", has_matrix ? "an" : "no",
                             camera.width, camera.height),
                 "all three",

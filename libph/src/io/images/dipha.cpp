@@ -41,7 +41,7 @@ const char* name_of(DiphaType type) {
 BinaryCursor body_of(const Input& input, DiphaType expected) {
   const DiphaType type = dipha_type(input);
   if (type != expected) {
-    input.fail_at_byte(kWord, {"another DIPHA file", name_of(type), name_of(expected), {}});
+    input.fail_at_byte(kWord, {"another type of DIPHA file", name_of(type), name_of(expected), {}});
   }
   return BinaryCursor(input, std::endian::little, kHeader);
 }
@@ -226,7 +226,7 @@ SparseDistances read_dipha_sparse(const Input& input, const ReadOptions& options
 BoundaryInput read_dipha_boundary(const Input& input, const ReadOptions& options) {
   BinaryCursor cursor = body_of(input, DiphaType::boundary_matrix);
   if (read_int(cursor, 0, 1, "kind of matrix") == 1) {
-    input.fail_at_byte(kHeader, {"a dualised matrix", "coboundaries", "boundaries, 0",
+    input.fail_at_byte(kHeader, {"a dualised matrix", "coboundaries", "boundaries (0)",
                                  "DIPHA's program dualize turns one into the other"});
   }
   // A cell takes three words, which are its dimension, its value and its offset.

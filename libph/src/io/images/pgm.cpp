@@ -131,7 +131,7 @@ Image read_pgm_image(const Input& input) {
   }
   if (end != input.size()) {
     input.fail_at_byte(
-        end, {"trailing data", fmt::format("{} bytes more", input.size() - end),
+        end, {"trailing data", fmt::format("{} more bytes", input.size() - end),
               "the end of the file", binary ? "files of several pictures are not read" : ""});
   }
   const std::vector<Index> extents{static_cast<Index>(height), static_cast<Index>(width)};

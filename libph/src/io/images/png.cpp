@@ -162,7 +162,7 @@ Raster read_png(const Input& input) {
   if (!detail::is_png(input)) {
     const auto foreign = detail::foreign_kind(input.text());
     input.fail_at_byte(
-        0, {"not a PNG file", foreign ? std::string(foreign->name) : "another signature",
+        0, {"not a PNG file", foreign ? std::string(foreign->name) : "a different signature",
             "\\x89PNG", foreign ? std::string(foreign->advice) : ""});
   }
   require_chunks(input);
@@ -207,7 +207,7 @@ Raster read_png(const Input& input) {
   if (!read_pixels(reader, rows.data())) fail();
   if (source.offset != input.size()) {
     input.fail_at_byte(source.offset, {"trailing data",
-                                       fmt::format("{} bytes more", input.size() - source.offset),
+                                       fmt::format("{} more bytes", input.size() - source.offset),
                                        "the end of the file",
                                        {}});
   }

@@ -137,7 +137,7 @@ Header read_header(const Input& input) {
   BinaryCursor cursor(input, std::endian::little);
   const auto magic = cursor.take(kMagic.size(), "NPY magic number");
   if (std::memcmp(magic.data(), kMagic.data(), kMagic.size()) != 0) {
-    input.fail_at_byte(0, {"not an NPY file", "another magic number", "\\x93NUMPY", {}});
+    input.fail_at_byte(0, {"not an NPY file", "a different magic number", "\\x93NUMPY", {}});
   }
   const auto major = cursor.read<std::uint8_t>("NPY version");
   cursor.read<std::uint8_t>("NPY version");

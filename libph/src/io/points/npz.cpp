@@ -199,7 +199,7 @@ Input read_npz_member(const Input& input) {
         {"compression method", fmt::format("{}", member.method), "0 (stored) or 8 (deflated)", {}});
   }
   if (checksum(bytes) != member.crc) {
-    input.fail_at_byte(data_at, {"damaged member: another checksum",
+    input.fail_at_byte(data_at, {"damaged member: wrong checksum",
                                  fmt::format("{:08x}", checksum(bytes)),
                                  fmt::format("{:08x}", member.crc),
                                  {}});
