@@ -106,9 +106,10 @@ FlagEdges forest_of(PointsView points, double limit, const RunContext& context) 
 
 FlagEdges spanning_forest(const PointMetric& metric, double limit, const RunContext& context) {
   if (!metric.is_plain_euclidean())
-    throw Error(ErrorKind::usage,
-                "device gpu: found coordinates whose squares leave the range of doubles, expected "
-                "the largest between 1e-140 and 1e150 in size; scale them, or use the CPU");
+    throw Error(
+        ErrorKind::usage,
+        "device gpu: found coordinates whose squares leave the range of doubles, expected "
+        "the largest between 1e-140 and 1e150 in absolute value; scale them, or use the CPU");
   const PointsView points = metric.points();
   require_device(static_cast<std::size_t>(points.rows()), static_cast<std::size_t>(points.cols()));
   try {

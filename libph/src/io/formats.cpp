@@ -106,7 +106,7 @@ ReadResult nifti_result(const Input& input, const ReadOptions& options) {
 }
 ReadResult raw_result(const Input& input, const ReadOptions& options) {
   if (!options.raw)
-    throw Error(ErrorKind::usage, "format raw: expected the layout of the image, found none");
+    throw Error(ErrorKind::usage, "format raw: found no layout, expected the layout of the image");
   return result_of(read_raw(input, *options.raw, options), "raw");
 }
 ReadResult perseus_result(const Input& input, const ReadOptions& options) {
@@ -117,8 +117,8 @@ ReadResult perseus_result(const Input& input, const ReadOptions& options) {
     result.periodic = std::move(perseus.periodic);
   }
   detail::note(options,
-               "Perseus and GUDHI take the values as values of the top-dimensional cubes: " +
-                   mark(Setting::construction, "cells"));
+               "Perseus and GUDHI take the values as values of the top-dimensional cubes, as " +
+                   mark(Setting::construction, "cells") + " does");
   return result;
 }
 ReadResult cloud_of(const Cloud& cloud, const Input& input, const ReadOptions& options,

@@ -147,7 +147,8 @@ ArrayGuess guess_array(const Input& input, const ReadOptions& options) {
     }
     if (kind == SquareKind::correlations || kind == SquareKind::nearly_correlations) {
       input.fail({"correlations, points or an image",
-                  fmt::format("a {} {} from -1 to 1 with ones on its diagonal", symmetric, shape),
+                  fmt::format("a {} {} with values from -1 to 1 and ones on its diagonal",
+                              symmetric, shape),
                   "an option that says which",
                   fmt::format("{} takes distances 1 - r; {} reads an image, {} one point per row",
                               mark(Setting::from_correlation), mark(Setting::complex, "cubical"),

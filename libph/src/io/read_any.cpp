@@ -92,7 +92,7 @@ Format format_of_text(const Input& input, const ReadOptions& options) {
   } else if (guess.table.same_names && (guess.table.square == SquareKind::symmetric ||
                                         guess.table.square == SquareKind::nearly_symmetric)) {
     input.fail({"distances, correlations or points",
-                fmt::format("{}, rows and columns of the same names, no zero diagonal", size),
+                fmt::format("{}, rows and columns with the same names, no zero diagonal", size),
                 "an option that says which", choices});
   } else if (guess.table.square != SquareKind::nothing && guess.table.square != SquareKind::zeros) {
     detail::note(options, fmt::format("{}, {}: read as points; {}", size, symmetric, choices));
@@ -109,7 +109,7 @@ void check_part(const Input& input, Format format, const ReadOptions& options) {
   const bool is_table = format == Format::points || format == Format::distance ||
                         format == Format::grid || format == Format::npy || format == Format::npz;
   if (!options.columns.empty() && !is_table)
-    refuse(Setting::columns, "tables of numbers, as text or NPY");
+    refuse(Setting::columns, "tables of numbers (text or NPY)");
   if (options.channel != Channel::automatic && format != Format::png)
     refuse(Setting::channel, "PNG pictures");
   if (format == Format::ply && !input.member().empty()) {

@@ -80,7 +80,7 @@ void check_range(const PixelRange& range, std::string_view name) {
     throw Error(
         ErrorKind::usage,
         fmt::format("persistence_image: {}: found a range from {} to {}, expected one from a "
-                    "number to a larger one, at most {} in size",
+                    "number to a larger one, at most {} in absolute value",
                     name, range.lo, range.hi, kLargestPixel));
 }
 

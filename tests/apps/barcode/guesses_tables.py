@@ -90,7 +90,7 @@ class Tables(GuessTest):
                                   ("r\tx\ty\tz\tcomment", "\t")):
             self.write("c.xyz", header + "\n" + "".join(
                 separator.join(map(repr, [0.5, *p])) + separator + "\n" for p in cloud))
-            self.refused(65, ["c.xyz:2:", "found 4 cells, expected 5, as the header has names"],
+            self.refused(65, ["c.xyz:2:", "found 4 cells, expected 5, the number of names in the header"],
                          "c.xyz")
 
     def test_times_are_rows(self):

@@ -58,7 +58,7 @@ def header_rows():
 
 
 def extra_columns():
-    yield refused(19, "distance", "a column more", "0 1 9\n1 0 9\n", "not square|do not fit|rows")
+    yield refused(19, "distance", "a column more", "0 1 9\n1 0 9\n", "not square|do not match|rows")
     yield refused(19, "distance", "a cell more", "0 1\n1 0 5\n", ":2:1: row 1 .* too long")
     yield refused(19, "lower-distance", "a cell more", "1\n2 3 4\n", ":2:1: row 2 .*too long")
     yield refused(19, "upper-distance", "a cell more", "1 2\n3 4\n", ":2:1: row 1 .*too long")
@@ -86,7 +86,7 @@ def separators():
 def not_square():
     yield refused(21, "distance", "rows missing", "0 1 2\n1 0 3\n", "found 2 rows")
     yield refused(21, "distance", "rows more", "0 1\n1 0\n1 1\n", ":3:1: not square")
-    yield refused(21, "distance", "one row", "0 1 2 3\n", "not square|do not fit")
+    yield refused(21, "distance", "one row", "0 1 2 3\n", "not square|do not match")
     yield refused(21, "lower-distance", "no triangle", "1 2 3 4\n", ":1:1: not a triangle")
     yield refused(21, "upper-distance", "no triangle", "1 2 3 4 5\n", ":1:1: not a triangle")
     yield refused(21, "upper-distance", "rows missing", "1 2 3\n4 5\n", "truncated matrix, found 2")

@@ -89,7 +89,7 @@ TEST(ReadPoints, NamesWhatIsWrongAndWhere) {
            {"1 2 3\n4 5\n", ":2:1:", "ragged row, found 2 cells, expected 3, as in line 1"},
            {"1 2 3\n\n4 5 6 7\n", ":3:1:", "found 4 cells"},
            {"x,y\n1,\n2,\n",
-            ":2:1:", "found 1 cell, expected 2, as the header has names; nan drop"},
+            ":2:1:", "found 1 cell, expected 2, the number of names in the header; nan drop"},
            {"x,y\n1,2\n2,\n3,4\n", ":3:1:", "expected 2, as in line 2; nan drop"},
            {"x 1 2\n", ":1:1:", "not a number, found \"x\""},
            {"1,2\n3 4\n", ":2:1:", "mixed separators"},

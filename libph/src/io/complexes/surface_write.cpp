@@ -78,25 +78,23 @@ void write_surface(OutputFile& file, PointsView points, const SurfaceMesh& mesh,
     throw Error(ErrorKind::usage,
                 fmt::format("surface: found points of R^{}, expected R^2 or R^3", points.cols()));
   if (mesh.regular > mesh.triangles.size())
-    throw Error(
-        ErrorKind::usage,
-        fmt::format("surface: found {} regular triangles among {}, expected at most as many",
-                    mesh.regular, mesh.triangles.size()));
+    throw Error(ErrorKind::usage,
+                fmt::format("surface: found {} regular triangles among {}, expected at most {}",
+                            mesh.regular, mesh.triangles.size(), mesh.triangles.size()));
   const std::vector<Index> used = points_of(mesh);
   if (!used.empty() && (used.front() < 0 || used.back() >= points.rows()))
     throw Error(ErrorKind::usage,
                 fmt::format("surface: found a corner at point {}, expected 0 to {}",
                             used.front() < 0 ? used.front() : used.back(), points.rows() - 1));
   if (!ids.empty() && static_cast<Index>(ids.size()) != points.rows())
-    throw Error(ErrorKind::usage, fmt::format("surface: found numbers of {} points, expected {}",
+    throw Error(ErrorKind::usage, fmt::format("surface: found numbers for {} points, expected {}",
                                               ids.size(), points.rows()));
   const auto number_of = [ids](Index point) {
     return ids.empty() ? point : ids[static_cast<std::size_t>(point)];
   };
   for (const Index point : used)
     if (const Index number = number_of(point); number < 0 || number > kMostNumber)
-      throw Error(ErrorKind::usage, fmt::format("surface: found the number {} of a point, expected "
-                                                "0 to {}",
+      throw Error(ErrorKind::usage, fmt::format("surface: found point number {}, expected 0 to {}",
                                                 number, kMostNumber));
   const auto place_of = [&](Index point) {
     return static_cast<std::int32_t>(std::ranges::lower_bound(used, point) - used.begin());

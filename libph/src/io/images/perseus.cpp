@@ -44,7 +44,7 @@ class CellStream {
 
 [[noreturn]] void fail_truncated(const Input& input, std::size_t found, std::size_t expected,
                                  const char* what) {
-  input.fail({fmt::format("truncated: {}", what),
+  input.fail({fmt::format("truncated: too few {}", what),
               fmt::format("{}", found),
               fmt::format("{}", expected),
               {}});
@@ -76,10 +76,12 @@ PerseusImage read_dense(TextLines& lines, std::size_t axes) {
   PerseusImage result;
   std::optional<std::size_t> count = 1;
   for (std::size_t axis = 0; axis < axes; ++axis) {
-    if (!stream.more()) fail_truncated(input, axis, axes, "sizes of the axes");
+    if (!stream.more()) fail_truncated(input, axis, axes, "sizes of axes");
     const char* place = stream.cells().place();
     const std::int64_t size = stream.cells().integer(-kMostExtent, kMostExtent, "size of an axis");
-    if (size == 0) lines.fail(place, {"size of an axis", "0", "1 or more, negative: periodic", {}});
+    if (size == 0)
+      lines.fail(place,
+                 {"size of an axis", "0", "1 or more, or a negative size for a periodic axis", {}});
     result.periodic.push_back(size < 0);
     result.image.extents.push_back(std::abs(size));
     if (count) count = checked_product(*count, static_cast<std::size_t>(std::abs(size)));
@@ -89,14 +91,14 @@ PerseusImage read_dense(TextLines& lines, std::size_t axes) {
     lines.fail(lines.line().data(),
                {"truncated: the sizes do not fit the file",
                 count ? fmt::format("{} values", *count) : "more than 2^64 values",
-                fmt::format("at most {}, by the length of the file", rest / 2 + 1),
+                fmt::format("at most {} in a file of this length", rest / 2 + 1),
                 {}});
   }
   input.require_memory(*count * sizeof(double));
   std::vector<double> values(*count);
   detail::FirstAxisFastest walk(result.image.extents);
   for (std::size_t k = 0; k < *count; ++k, walk.next()) {
-    if (!stream.more()) fail_truncated(input, k, *count, "values of the cubes");
+    if (!stream.more()) fail_truncated(input, k, *count, "values of cubes");
     values[walk.place()] = stream.cells().number(Allow::infinite);
   }
   if (stream.more()) {

@@ -132,7 +132,7 @@ Image read_pgm_image(const Input& input) {
   if (end != input.size()) {
     input.fail_at_byte(
         end, {"trailing data", fmt::format("{} more bytes", input.size() - end),
-              "the end of the file", binary ? "files of several pictures are not read" : ""});
+              "the end of the file", binary ? "files with several pictures are not read" : ""});
   }
   const std::vector<Index> extents{static_cast<Index>(height), static_cast<Index>(width)};
   if (bytes_each == 1) return {extents, std::move(bytes)};

@@ -30,7 +30,7 @@ std::vector<double> make_triangle(const Input& input, std::size_t n, std::size_t
   if (!cells || *cells > input.size() + 1) {
     std::size_t rows = 0;
     for (TextLines lines(input); lines.next();) ++rows;
-    input.fail({"rows and columns do not fit",
+    input.fail({"rows and columns do not match",
                 fmt::format("{} rows, the first of {} cells", rows, first),
                 fmt::format("{} rows", n == first ? n : n - 1), why_square(options)});
   }

@@ -77,7 +77,7 @@ double MatrixEntries::merged(double upper, double lower, const EntryPlace& place
 Fault MatrixEntries::fault_of(Kind kind, const Doubt& doubt) const {
   const auto [i, j, byte] = doubt.place;
   const std::string slack =
-      rounding() > 0 ? fmt::format(", or rounding: at most {:.2g}", rounding()) : "";
+      rounding() > 0 ? fmt::format(", or a rounding error of at most {:.2g}", rounding()) : "";
   if (kind == kNegative)
     return {"negative distance", fmt::format("{}", doubt.value), "0 or more",
             doubt.value >= -1 ? read_correlations() : ""};
@@ -103,8 +103,8 @@ void MatrixEntries::finish(const std::function<void(const EntryPlace&, const Fau
     if (!is_accepted(kind)) fail(worst_[kind].place, fault_of(kind, worst_[kind]));
   const auto tell = [&](Kind kind, std::string_view what) {
     if (worst_[kind].size > 0)
-      note(options_,
-           fmt::format("{} for rounding, at most {:.2g}: taken as 0", what, worst_[kind].size));
+      note(options_, fmt::format("{} for rounding errors of at most {:.2g}, which are taken as 0",
+                                 what, worst_[kind].size));
   };
   tell(kNegative, "distances are 0 or more except");
   const Doubt& diagonal = worst_[kDiagonal];

@@ -13,7 +13,7 @@ Image read_raw(const Input& input, const RawLayout& layout, const ReadOptions& o
   };
   const auto type = detail::element_type(layout.type);
   if (!type || layout.type.starts_with('b'))
-    refuse("raw type", printable(layout.type, 40), "u1 u2 u4 u8 i1 i2 i4 i8 f2 f4 or f8");
+    refuse("raw type", printable(layout.type, 40), "u1, u2, u4, u8, i1, i2, i4, i8, f2, f4 or f8");
   if (layout.extents.empty()) refuse("raw shape", "no axes", "at least one");
   for (const Index extent : layout.extents)
     if (extent < 0) refuse("raw shape", fmt::format("{}", extent), "sizes of 0 or more");

@@ -182,12 +182,13 @@ TextTable read_text_table(const Input& input, Allow allow, const ReadOptions& op
           {"ragged row", fmt::format("{} cell{}", k, k == 1 ? "" : "s"),
            lines.number() != first_line ? fmt::format("{}, as in line {}", width, first_line)
            : table.header.empty()       ? fmt::format("{}, as in the next line", width)
-                                        : fmt::format("{}, as the header has names", width),
+                                  : fmt::format("{}, the number of names in the header", width),
            k < width && lines.offset() == input.size()
-               ? is_last_missing ? fmt::format("is the file truncated? else {} accepts the empty "
-                                               "cell",
-                                               mark(Setting::nan, "drop"))
-                                 : "is the file truncated?"
+               ? is_last_missing
+                     ? fmt::format("is the file truncated? if not, {} accepts the empty "
+                                   "cell",
+                                   mark(Setting::nan, "drop"))
+                     : "is the file truncated?"
            : is_last_missing ? mark(Setting::nan, "drop") + " accepts an empty last cell"
            : options.array == ArrayMeaning::image ? "an image has rows of one length"
                                                   : ""});

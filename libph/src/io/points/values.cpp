@@ -76,7 +76,7 @@ std::vector<double> of_property(const Input& input) {
     input.fail({input.member().empty() ? "a PLY file has several values per vertex"
                                        : "no such property of the vertices",
                 printable(input.member(), 40), fmt::format("one of {}", fmt::join(names, ", ")),
-                fmt::format("{}:NAME", input.name())});
+                fmt::format("{}:NAME chooses one", input.name())});
   }
   const auto count = static_cast<std::size_t>(cloud.size());
   input.require_memory(count * sizeof(double));

@@ -151,7 +151,7 @@ void convert_array(const Input& input, const ArrayLayout& layout, const std::vec
     if (!exact) {
       const std::string near = fmt::format("one near {:.0f}", value);
       input.fail_at_byte(layout.offset + at,
-                         {"integer that double cannot hold", near, "at most 2^53", {}});
+                         {"integer that a double cannot hold", near, "at most 2^53", {}});
     }
     return static_cast<T>(value);
   };

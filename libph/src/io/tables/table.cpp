@@ -236,7 +236,7 @@ bool leads_with_names(const Input& input, TableLayout& layout, std::string_view 
   if (is_full && layout.header[0].empty()) {
     const bool is_one = layout.unnamed() == 1;
     layout.notes.push_back(
-        fmt::format("the first {} no name, as an index of the rows: left out{}",
+        fmt::format("the first {} no name, like an index of the rows: left out{}",
                     is_one ? "column has" : fmt::format("{} columns have", layout.unnamed()),
                     number_in(first_cell) ? way_to_take_it(input, layout) : ""));
     return true;

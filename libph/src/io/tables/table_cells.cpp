@@ -150,8 +150,8 @@ std::optional<double> number_in(std::string_view cell) {
 }
 
 CellHints cell_hints(const ReadOptions& options) {
-  const std::string some = mark(Setting::columns) + " takes some columns only";
-  return {"names or an index? " + some,
+  const std::string some = mark(Setting::columns) + " takes only some columns";
+  return {"are these names or an index? " + some,
           options.nan == NanPolicy::error
               ? mark(Setting::nan, "drop") + " accepts missing values; " + some
               : ""};
@@ -170,9 +170,10 @@ bool ends_empty(std::string_view line) {
 
 void refuse_columns(const ReadOptions& options, std::string_view found) {
   if (!options.columns.empty())
-    throw Error(ErrorKind::usage,
-                fmt::format("{}: makes sense for points and matrices as text only, found {}",
-                            mark(Setting::columns), found));
+    throw Error(
+        ErrorKind::usage,
+        fmt::format("{}: makes sense only for points and for matrices in text files, found {}",
+                    mark(Setting::columns), found));
 }
 
 std::string matrix_option(const ReadOptions& options) {

@@ -236,7 +236,7 @@ T Cells::floating(Allow allow) {
   if (error == std::errc::result_out_of_range) {
     if (!rounds_to_zero({digits, last})) {
       reject(begin, stop, "number out of range",
-             fmt::format("at most {:.2g} in size", std::numeric_limits<T>::max()));
+             fmt::format("at most {:.2g} in absolute value", std::numeric_limits<T>::max()));
     }
     value = 0;
   }
@@ -340,7 +340,7 @@ void Cells::after_cell(const char* end_of_cell) {
         {"mixed separators",
          fmt::format("{} in {}", name(found),
                      quoted({position_, static_cast<std::size_t>(end_of_both - position_)})),
-         fmt::format("{}, as between the cells before", name(separator_)),
+         fmt::format("{}, as between the preceding cells", name(separator_)),
          found == ',' || separator_ == ',' ? "write a decimal point if the comma was one" : ""});
   }
   if (found != ' ') {

@@ -52,7 +52,7 @@ std::string_view BetaSkeletonEngine::obstacle(const RipsInput& input, const Task
   if (!options.births.empty() || options.dtm_neighbours) return "vertices that all enter at 0";
   if (options.approximation) return "the full filtration, not a sparse one";
   if (!has_plain_coordinates(*input.points))
-    return "coordinates that are 0 or between 1e-120 and 1e150 in size";
+    return "coordinates that are 0 or between 1e-120 and 1e150 in absolute value";
   return {};
 }
 

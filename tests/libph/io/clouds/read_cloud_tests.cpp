@@ -238,9 +238,9 @@ TEST(ReadXyz, NamesColumns) {
   EXPECT_EQ(points_of(named), (Points{{1, 2, 3}}));
   EXPECT_EQ(points_of(xyz("//X Y Z R G B\n1 2 3 0 0 0\n")), (Points{{1, 2, 3}}));
   // A column that has a name but no values does not take the place of another.
-  EXPECT_TRUE(
-      contains(bad_data([&] { xyz("i,x,y,z,note\n9,1,2,3,\n8,4,5,6,\n"); }),
-               "c.xyz:2:1: ragged row, found 4 cells, expected 5, as the header has names"));
+  EXPECT_TRUE(contains(
+      bad_data([&] { xyz("i,x,y,z,note\n9,1,2,3,\n8,4,5,6,\n"); }),
+      "c.xyz:2:1: ragged row, found 4 cells, expected 5, the number of names in the header"));
   for (const char* text : {"1 2\n", "a,b,c\n1,2,3\n", "1 2 inf\n", "", "1 2 3\n4 5\n",
                            "x,y,z,a,a\n0,0,0,1,2\n", "a,x,y,z\n1,2,3,inf\n"}) {
     bad_data([&] { xyz(text); });
