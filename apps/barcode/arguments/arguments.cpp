@@ -222,8 +222,8 @@ void check_together(Job& job) {
     reject("--loops: found without dimension 1, the only dimension with loops");
   if (job.question.options.collapse == Collapse::on && job.question.options.min_persistence < 0)
     reject(
-        "--collapse: found on, which loses bars of length 0; a negative --min-persistence keeps "
-        "them");
+        "--collapse: found on, which loses the bars of length 0 that a negative --min-persistence "
+        "keeps");
   if (job.question.options.collapse == Collapse::on &&
       job.question.options.representatives == Representatives::cocycles)
     reject(

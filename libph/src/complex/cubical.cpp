@@ -22,7 +22,7 @@ namespace {
 
 void check(const Image& image, const CubicalOptions& options) {
   if (image.dim() > Cubical::kMaxDim) {
-    throw Error(ErrorKind::usage, fmt::format("image: found {} axes, at most {} are possible",
+    throw Error(ErrorKind::usage, fmt::format("image: found {} axes, expected at most {}",
                                               image.dim(), Cubical::kMaxDim));
   }
   Index voxels = 1;
@@ -125,8 +125,8 @@ const Cubical::Table& Cubical::make_table(const RunContext& context) const {
 Cubical::Table Cubical::new_table(const RunContext& context) const {
   if (voxels_.size() > kNever - 1)
     throw Error(ErrorKind::resource,
-                fmt::format("image: found {} voxels, at most 2^32 - 2 are possible with an engine "
-                            "that lists cells (any engine except gradient)",
+                fmt::format("image: found {} voxels, expected at most 2^32 - 2 with an engine that "
+                            "lists cells (any engine except gradient)",
                             voxels_.size()));
   // The table may outlive this run. Its memory is therefore counted by the context that the
   // constructor was given.

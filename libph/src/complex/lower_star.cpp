@@ -67,7 +67,7 @@ ExplicitComplex lower_star(const SimplexList& simplices, std::span<const double>
     if (std::adjacent_find(vertices.begin(), vertices.end()) != vertices.end())
       throw Error(ErrorKind::bad_data, where() + ": a vertex occurs twice in one simplex");
     if (vertices.size() > kMostVertices) {
-      throw Error(ErrorKind::resource, fmt::format("{}: found {} vertices, at most {} are possible",
+      throw Error(ErrorKind::resource, fmt::format("{}: found {} vertices, expected at most {}",
                                                    where(), vertices.size(), kMostVertices));
     }
     if (closure.contains(vertices)) continue;  // all faces of the simplex are present as well

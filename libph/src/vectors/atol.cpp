@@ -211,8 +211,9 @@ Atol fit_atol(std::span<const std::span<const Bar>> diagrams, const AtolOptions&
   if (options.centres < 1 || options.most_rounds < 0)
     throw Error(
         ErrorKind::usage,
-        fmt::format("{}: found {} centres and {} rounds, expected at least 1 centre and 0 rounds",
-                    mark_place("fit_atol"), options.centres, options.most_rounds));
+        fmt::format(
+            "{}: found {} centres and {} rounds, expected 1 centre or more and 0 rounds or more",
+            mark_place("fit_atol"), options.centres, options.most_rounds));
   std::vector<vectors::Heap> heaps = vectors::heaps_of(diagrams);
   if (heaps.size() < options.centres)
     throw Error(

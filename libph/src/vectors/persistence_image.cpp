@@ -102,11 +102,10 @@ void persistence_image(std::span<const Bar> given, const ImageFrame& frame, doub
   for (const Bar& bar : bars) {
     const double weight = std::pow(bar.persistence(), power);
     if (!(weight < kInfinity))
-      throw Error(
-          ErrorKind::bad_data,
-          fmt::format("{}: found a bar of length {} and the power {}, expected a weight below "
-                      "infinity",
-                      mark_place("persistence_image"), bar.persistence(), power));
+      throw Error(ErrorKind::bad_data,
+                  fmt::format("{}: found a bar of length {} and the power {}, expected a finite "
+                              "weight",
+                              mark_place("persistence_image"), bar.persistence(), power));
     births.go_to(bar.birth);
     lengths.go_to(bar.persistence());
     if (births.count() > 0 && lengths.count() > 0)

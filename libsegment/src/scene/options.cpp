@@ -106,7 +106,8 @@ void validate(const SceneTree& scene) {
       scene.removed > std::ssize(scene.surfaces))
     fail("numbers of surfaces and of removed surfaces",
          fmt::format("{}, {}", scene.surfaces.size(), scene.removed),
-         fmt::format("at most {}, and no more removed ones", kMostSurfaces));
+         fmt::format("at most {} surfaces, and no more removed surfaces than surfaces",
+                     kMostSurfaces));
   Index size = 0;
   if (scene.width < 0 || scene.height < 0 ||
       __builtin_mul_overflow(scene.width, scene.height, &size))

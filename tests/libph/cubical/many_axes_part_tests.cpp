@@ -103,9 +103,9 @@ TEST(ManyAxesPart, SaysWhatCanBeHad) {
   };
   refused({2, 2, 2, 2}, {},
           "parts of an image of 4 axes: dimensions from 1 to 2 need all layers at once, found "
-          "dimensions 0 to 3 asked for");
+          "a request for dimensions 0 to 3");
   refused({2, 2, 2, 2}, {.max_dim = 1},
-          "found dimensions 0 to 1 asked for, expected dimension 0 alone, or 3 alone");
+          "found a request for dimensions 0 to 1, expected dimension 0 alone, or 3 alone");
   refused({2, 2, 2, 2}, {.min_dim = 2, .loops = true}, "expected dimension 0 alone, or 3 alone");
   refused({2, 2, 2, 2, 2}, {.min_dim = 3}, "dimension 0 alone, or 4 alone");
   refused({2, 2, 2, 2}, {.cubical = {.periodic = {false, true, false, false}}, .min_dim = 3},

@@ -27,7 +27,7 @@ TEST(Device, DoesComponentsOfEuclideanPointsAlone) {
   refused_task({.approximation = 0.5, .device = Device::gpu}, {.max_dim = 0});
   RipsOptions options = kForest;
   options.distance = PointDistance::manhattan;
-  refused("another distance", kSquare, options);
+  refused("a different distance", kSquare, options);
   options = kForest;
   const std::vector<double> births(4, 0.5);
   options.births = births;

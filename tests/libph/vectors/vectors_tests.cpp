@@ -264,7 +264,7 @@ TEST(Images, RefuseWhatMakesNoSenseAndStop) {
   expect_error(ErrorKind::usage, "lengths: found a range", of({{0, 1, 2}, {1, 1, 2}}, 1, 1));
   expect_error(ErrorKind::usage, "births: found a range", of({{nan, 1, 2}, {0, 1, 2}}, 1, 1));
   expect_error(ErrorKind::usage, "expected 6", of({{0, 1, 2}, {0, 1, 3}}, 1, 1));
-  expect_error(ErrorKind::bad_data, "a weight below infinity", of(frame, 1, 1000));
+  expect_error(ErrorKind::bad_data, "expected a finite weight", of(frame, 1, 1000));
   expect_error(ErrorKind::bad_data, "expected finite bars", [&] {
     persistence_image(Bars{{0, 1, kInfinity}}, frame, 1, 1, out);
   });

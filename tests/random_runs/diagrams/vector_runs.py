@@ -67,7 +67,7 @@ def expected_refusal(task):
                 return [0, 64], ["widths > 0"]  # the square of such a distance is 0
     longest = max((e - b for _, b, e in used if e - b < INF), default=0.0)
     if task.kind == "image" and longest > 0 and task.power * math.log10(longest) > 300:
-        return [0, 65], ["expected a weight below infinity"]  # the bar may be outside the pixels
+        return [0, 65], ["expected a finite weight"]  # the bar may be outside the pixels
     if task.kind == "image" and any(0 < e - b < 1e-305 for _, b, e in used):
         return [0, 64], ["persistence_image: "]  # fitted values have few digits or none
     return None

@@ -15,6 +15,7 @@
 #include "ph/detail/core/byte_writer.hpp"
 #include "ph/detail/core/chain.hpp"
 #include "ph/detail/core/field.hpp"
+#include "ph/error.hpp"
 
 namespace ph::cubical {
 
@@ -97,7 +98,9 @@ class LoopMessage {
               int parts, std::uint64_t voxels, std::pmr::memory_resource* memory)
       : field_(field), voxels_(voxels), from_(bytes, "loops of another part") {
     header.image = from_.get<std::uint64_t>("image");
-    if (header.image != image) from_.refuse("image, field or option");
+    if (header.image != image)
+      throw Error(ErrorKind::bad_data,
+                  "loops of another part: found loops of another image, field or option");
     header.from = from_.get<std::int32_t>("sender");
     if (header.from < 0 || header.from >= parts || header.from == to) from_.refuse("sender");
     header.to = from_.get<std::int32_t>("receiver");

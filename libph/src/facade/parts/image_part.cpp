@@ -122,7 +122,7 @@ WholeImage cubical::checked_whole(const Image& image, int parts, const ImagePart
   const int highest = std::min(whole.max_dim, top - 1);
   if (whole.loops && !(options.loops && top == 3))
     throw Error(ErrorKind::usage,
-                fmt::format("parts of {}: {} need all layers at once, found {} asked for, "
+                fmt::format("parts of {}: {} need all layers at once, found a request for {}, "
                             "expected dimension 0 alone{}",
                             top == 3 ? "a volume" : fmt::format("an image of {} axes", top),
                             top == 3 ? "loops" : fmt::format("dimensions from 1 to {}", top - 2),
@@ -135,7 +135,7 @@ WholeImage cubical::checked_whole(const Image& image, int parts, const ImagePart
   const GridShape::Axis& axis = shape.axis(shape.layer_axis());
   if (image.values.size() != axis.extent * axis.stride)
     throw Error(ErrorKind::bad_data,
-                fmt::format("image: found {} voxels, expected {} by its extents",
+                fmt::format("image: found {} voxels, expected {}, the product of its extents",
                             image.values.size(), axis.extent * axis.stride));
   return whole;
 }

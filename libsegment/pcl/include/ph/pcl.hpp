@@ -37,7 +37,7 @@ std::vector<float> coordinates(const ::pcl::PointCloud<PointT>& cloud,
   }
   for (const auto i : *indices) {
     if (i < 0 || static_cast<std::size_t>(i) >= cloud.size()) {
-      throw Error(ErrorKind::bad_data, "index " + std::to_string(i) + " of a cloud of " +
+      throw Error(ErrorKind::bad_data, "found index " + std::to_string(i) + " in a cloud of " +
                                            std::to_string(cloud.size()) + " points");
     }
     take(static_cast<std::size_t>(i));
