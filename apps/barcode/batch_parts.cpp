@@ -128,9 +128,10 @@ Outcome join_batch_parts(const std::vector<PartFile>& files, const Places& place
     std::vector<int> missing;
     for (int i = 0; i < all->whole().parts; ++i)
       if (!std::ranges::binary_search(all->numbers(), i)) missing.push_back(i + 1);
-    throw Error(ErrorKind::bad_data,
-                fmt::format("--join: found {}, expected all: missing are {}; -o FILE.ph joins some",
-                            parts, fmt::join(missing, ", ")));
+    throw Error(
+        ErrorKind::bad_data,
+        fmt::format("--join: found {}, expected all (missing: {}); -o FILE.ph joins those given",
+                    parts, fmt::join(missing, ", ")));
   }
   if (places.format != BarcodeFormat::csv)
     throw Error(ErrorKind::usage,

@@ -64,7 +64,8 @@ Block block_of(const Fit& fit, int dim, const Spans& diagrams, const Arguments& 
       } catch (const Error& error) {
         if (error.kind() != ErrorKind::bad_data) throw;
         const Error of_dim = about_input(error, fmt::format("H{}", dim));
-        throw Error(error.kind(), fmt::format("{}; --count K", of_dim.marked()));
+        throw Error(error.kind(),
+                    fmt::format("{}; --count K sets another number", of_dim.marked()));
       }
       break;
     }

@@ -34,7 +34,9 @@ void check_ranks(const Job& job) {
   if (!job.compare.empty()) reject("--compare", "");
   if (job.stored) reject("plot", "");
   if (job.question.options.min_persistence < 0)
-    reject("--min-persistence", ", and negative: parts keep no bars of length 0");
+    throw Error(
+        ErrorKind::usage,
+        "--min-persistence: found a negative number on ranks: parts keep no bars of length 0");
   for (const app::Plot& plot : job.places.plots)
     if (!plot.shows_bars()) reject("--plot-kind tree", ", expected a plot of bars");
 }
@@ -91,7 +93,7 @@ void check_part_arguments(const Job& job) {
                     "the bars",
                     option));
   if (job.sharing.keeps_cells && job.wants_part_of_one() && !job.wants_image_part())
-    reject("--keep-cells: makes sense for images; parts of points have the cells");
+    reject("--keep-cells: makes sense for images only; parts of points always have the cells");
   if (job.sharing.joins && job.sharing.resumes) reject("--resume: makes sense with --part only");
   if (job.question.options.min_persistence < 0 && (job.sharing.joins || job.wants_part_of_one()))
     reject(

@@ -87,8 +87,8 @@ Outcome join_cloud_parts(const std::vector<PartFile>& files, const Job& job,
   }
   if (!all->is_whole())
     throw Error(ErrorKind::bad_data,
-                fmt::format("--join: found {}, expected all: missing is part {}; -o FILE.ph joins "
-                            "some",
+                fmt::format("--join: found {}, expected all (missing: part {}); -o FILE.ph joins "
+                            "those given",
                             words, all->missing().front() + 1));
   Outputs outputs(job.places);
   const BarcodeInfo info = info_of(

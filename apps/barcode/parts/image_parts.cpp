@@ -132,7 +132,8 @@ Outcome join_image_parts(std::vector<PartFile> files, const Job& job, app::Sessi
     const std::string& before = parts[i - 1].second;
     if (next.parts() == all.parts() && next.first() <= all.last())
       throw Error(ErrorKind::bad_data,
-                  fmt::format("{}: {} is there twice, also in {}", path, words_of(next), before));
+                  fmt::format("{}: found {}, also in {}, expected each part once", path,
+                              words_of(next), before));
     join(all, std::move(next), before, path, context);
   }
   if (is_part_path(job.places.output)) {
@@ -142,7 +143,7 @@ Outcome join_image_parts(std::vector<PartFile> files, const Job& job, app::Sessi
   if (!all.is_whole())
     throw Error(
         ErrorKind::bad_data,
-        fmt::format("--join: found {}, expected all; -o FILE.ph joins some", words_of(all)));
+        fmt::format("--join: found {}, expected all; -o FILE.ph joins those given", words_of(all)));
   if (job.places.format == BarcodeFormat::json && !all.options().cells)
     throw Error(ErrorKind::usage,
                 "--output-format: found json, which shows the cells of bars; --part with "

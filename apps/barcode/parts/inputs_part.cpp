@@ -35,7 +35,7 @@ void InputsPart::join(InputsPart other) {
                 "of one batch");
   for (const int number : other.numbers_)
     if (std::ranges::binary_search(numbers_, number))  // mutant: part-twice
-      throw Error(ErrorKind::bad_data, fmt::format("parts of inputs: part {} of {} is there twice",
+      throw Error(ErrorKind::bad_data, fmt::format("parts of inputs: found part {} of {} twice",
                                                    number + 1, whole_.parts));
   std::vector<int> numbers;
   std::ranges::merge(numbers_, other.numbers_, std::back_inserter(numbers));

@@ -17,10 +17,11 @@ PartInput read_part_input(const std::string& input, bool keeps_cells, const Job&
   const std::string_view why = job.sharing.part ? "--part" : "several ranks";
   if (job.question.complex != ComplexKind::automatic &&
       job.question.complex != ComplexKind::cubical)
-    throw Error(ErrorKind::usage,
-                fmt::format("--complex: found another, expected cubical, or rips with --max-dim 0, "
-                            "with {}",
-                            why));
+    throw Error(
+        ErrorKind::usage,
+        fmt::format("--complex: found a different one, expected cubical, or rips with --max-dim 0, "
+                    "with {}",
+                    why));
   const Input opened =
       Input::open(files::path_of(input), &session.context(), Input::Excess::is_expected);
   if (job.reading.format == Format::automatic && is_barcode(opened))

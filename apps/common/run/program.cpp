@@ -41,7 +41,7 @@ int report_with_memory(std::string_view prefix, std::string_view memory_advice) 
     }
     const std::string text = error.in_words(kWords);
     if (error.kind() == ErrorKind::internal)
-      return report(fmt::format("internal error: {}; please report", text), kInternal);
+      return report(fmt::format("internal error: {}; please report it", text), kInternal);
     if (error.kind() == ErrorKind::resource && !advises(error, Setting::memory_limit))
       return report(fmt::format("{}; {}", text, memory_advice), kResource);
     return report(text, exit_code(error.kind()));
@@ -54,11 +54,11 @@ int report_with_memory(std::string_view prefix, std::string_view memory_advice) 
     // Threads throw this error if the system has no room for another thread.
     if (error.code() == std::errc::resource_unavailable_try_again)
       return report("cannot create a thread; use fewer threads (--threads)", kResource);
-    return report(fmt::format("internal error: {}; please report", error.what()), kInternal);
+    return report(fmt::format("internal error: {}; please report it", error.what()), kInternal);
   } catch (const std::exception& error) {
-    return report(fmt::format("internal error: {}; please report", error.what()), kInternal);
+    return report(fmt::format("internal error: {}; please report it", error.what()), kInternal);
   } catch (...) {
-    return report("internal error: unknown exception; please report", kInternal);
+    return report("internal error: unknown exception; please report it", kInternal);
   }
 }
 

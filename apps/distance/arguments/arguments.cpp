@@ -37,7 +37,7 @@ double parse_finite(const char* option, const std::string& text, double least) {
 double parse_order(const std::string& text) {
   const double order = parse_number("--order", text);
   if (order == kInfinity)
-    reject("--order: found inf, expected a finite number; --distance bottleneck is that");
+    reject("--order: found inf, expected a finite number; --distance bottleneck has order inf");
   return parse_finite("--order", text, 1);
 }
 
@@ -161,7 +161,7 @@ void require_table_format(const Arguments& a) {
   const auto format = barcode_format_of_path(*a.output);
   if (format && *format != BarcodeFormat::csv && *format != BarcodeFormat::json)
     reject(
-        fmt::format("--output: found {}, expected FILE.csv or FILE.json, other names give text; "
+        fmt::format("--output: found {}, expected FILE.csv or FILE.json (other names give text); "
                     "--matrix writes .npy",
                     printable(*a.output)));
 }

@@ -34,7 +34,7 @@ Groups read_groups(const Input& input, std::size_t count) {
   if (groups.of.size() != count)  // mutant: group-words
     input.fail({"groups",
                 app::count_of(groups.of.size(), "word"),
-                fmt::format("{}, one for each barcode in their order", count),
+                fmt::format("{}, one for each barcode, in the order of the barcodes", count),
                 {}});
   if (groups.names.size() < 2)
     input.fail({"groups", app::count_of(groups.names.size(), "group"), "at least 2", {}});

@@ -106,7 +106,7 @@ void require_inputs(const Arguments& a) {
     reject("INPUT: standard input can be read once only");
   if (several && depth)
     reject(
-        "--depth: it takes one frame; give several as INPUT, as a folder, or with --frames-from");
+        "--depth: takes one frame only; give several as INPUT, as a folder, or with --frames-from");
   if (a.signatures && a.files.json.empty()) reject("--signatures: expected --json with it");
   if (several && a.explain) reject("--explain takes one input only");
   if (!several && a.stable_labels) reject("--stable-labels: expected several frames");

@@ -109,17 +109,20 @@ class Reader {
     json_.expect_end();
     if (!has_format || !has_kind || fit_.blocks.empty())
       input_.fail({"not a fit",
-                   "a member is missing",
+                   "a member missing",
                    R"("format": "ph-vectorise fit", "kind" and "blocks")",
                    {}});
     for (const char* const parameter : parameters_of(fit_.kind))
       if (!seen.contains(parameter))
-        input_.fail({"not a fit", fmt::format("no {}", parameter), "it with this kind", {}});
+        input_.fail({"not a fit",
+                     fmt::format("no {}", parameter),
+                     fmt::format("{} with this kind", parameter),
+                     {}});
     check();
     if (length && static_cast<std::uint64_t>(*length) != length_of(fit_))
       input_.fail({"length",
                    fmt::format("{}", *length),
-                   fmt::format("{}, as the blocks have", length_of(fit_)),
+                   fmt::format("{}, the length of the blocks", length_of(fit_)),
                    {}});
     return std::move(fit_);
   }
@@ -229,7 +232,7 @@ class Reader {
     if (fit_.infinite.rule == InfiniteRule::Rule::keep && !may_keep_infinite(fit_.kind))
       input_.fail({"infinite", "keep", "drop, error or a number with this kind", {}});
     if (fit_.kind == Kind::euler && fit_.blocks.size() > 1)
-      input_.fail({"blocks", fmt::format("{}", fit_.blocks.size()), "one of an Euler curve", {}});
+      input_.fail({"blocks", fmt::format("{}", fit_.blocks.size()), "one for an Euler curve", {}});
     const RunContext& context = input_.context() ? *input_.context() : default_context();
     try {
       for (std::size_t i = 0; i < fit_.blocks.size(); ++i) {
@@ -239,7 +242,7 @@ class Reader {
         if (!shapes_[i].empty() && shapes_[i] != shape)
           input_.fail({"shape",
                        fmt::format("[{}]", fmt::join(shapes_[i], ", ")),
-                       fmt::format("[{}], as the grids have", fmt::join(shape, ", ")),
+                       fmt::format("[{}], the shape of the grids", fmt::join(shape, ", ")),
                        {}});
         for (const std::size_t n : shape) length *= n;
         if (length > static_cast<std::size_t>(kMost))

@@ -117,7 +117,7 @@ class Parts(PartsTest):
         refused = {
             "missing": (p[:3], "parts 1 to 3 of 4"),
             "a gap": ([p[0], p[2], p[3]], "part 3 after part 1"),
-            "twice": ([*p, p[1]], "twice"),
+            "twice": ([*p, p[1]], "each part once"),
             "another image": ([p[0], self.parts(other, 4, prefix="o")[1], *p[2:]], "o2.ph"),
             "other options": ([p[0], self.parts(image, 4, "--superlevel", prefix="s")[1], *p[2:]],
                               "options"),
@@ -249,7 +249,7 @@ class Clouds(PartsTest):
         cloud, other = (self.cloud(rng, name, 40, 2) for name in ("cloud.csv", "other.csv"))
         p = self.parts(cloud, 3)
         o = self.parts(other, 3, prefix="o")
-        for names, word in ((p[:2], "missing is part 3"), ([p[0], p[0], p[2]], "twice"),
+        for names, word in ((p[:2], "missing: part 3"), ([p[0], p[0], p[2]], "twice"),
                             ([p[0], o[1], p[2]], "other points or options"),
                             ([*p, "cloud.csv"], 'begin with "ph part"')):
             self.refused(names, word)
@@ -318,7 +318,7 @@ class Batches(PartsTest):
 
     def test_what_does_not_belong_together_is_refused(self):
         p = self.parts(3)
-        for names, word in ((p[:2], "missing are 3"), ([*p, p[0]], "part 1 of 3 is there twice"),
+        for names, word in ((p[:2], "missing: 3"), ([*p, p[0]], "found part 1 of 3 twice"),
                             ([p[0], self.parts(3, "--max-dim", "0", prefix="q")[1], p[2]], "options")):
             self.refused(names, word, output="table.csv")
         self.assertIn("--plot", self.expect(64, "in", "--part", "1/3", "--plot", "x.svg").stderr)

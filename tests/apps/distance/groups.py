@@ -94,7 +94,7 @@ class GroupsTest(ProgramTest):
         self.assertEqual(self.result().stdout, expected)
         run = self.expect(0, *self.names, "--groups", "-", input="\n".join(WORDS))
         self.assertEqual(run.stdout, expected)
-        count = "expected 7, one for each barcode in their order"
+        count = "expected 7, one for each barcode, in the order of the barcodes"
         for text, words in (("\n".join(WORDS[1:]), ("found 6 words", count)),
                             ("\n".join([*WORDS, "low"]), ("found 8 words", count)), ("", ("found 0 words",)), ("a\n" * 7, ("found 1 group", "expected at least 2")),
                             ("a\na\na\na\na\na\nb\n", ("group b", "found 1 barcode", "at least 2")),

@@ -73,7 +73,7 @@ class OptionsTest(ProgramTest):
                 run = self.expect(64, *PAIR, option, value)
                 self.assertIn(option, run.stderr)
                 self.assertEqual(run.stdout, "")
-        self.assertIn("--distance bottleneck is that", self.expect(64, *PAIR, "--order", "inf").stderr)
+        self.assertIn("--distance bottleneck has order inf", self.expect(64, *PAIR, "--order", "inf").stderr)
         self.assertIn("did you mean", self.expect(64, *PAIR, "--distanc", "sliced").stderr)
         for arguments in ([], ["a.csv"], ["a.csv", ""], ["-", "-"], ["-", "a.csv", "--groups", "-"],
                           [*PAIR, "--whatever"], [*PAIR, "--matching", "-"], [*PAIR, "--dim", "1", "--matrix", "-",
