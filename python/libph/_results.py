@@ -51,7 +51,7 @@ def require_version(found: int, expected: int) -> None:
     """Refuses the state of another version of libph."""
     if found != expected:
         raise UsageError(f"pickle: found version {found}, expected {expected}: it was written by "
-                         "another libph")
+                         "another version of libph")
 
 
 def description_of(meta: Any) -> str:

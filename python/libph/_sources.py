@@ -93,7 +93,7 @@ def _of_matrix(X: Any, nan: str | None, diagonal: str, symmetrise: str | None) -
     array = _arrays.as_distances(X)
     births = None
     if diagonal == "zero" and _is_correlation(array):
-        raise DataError("X: found 1 on all of the diagonal and nothing beyond, as correlations are, "
+        raise DataError("X: found 1 on the whole diagonal and nothing larger, as in correlations, "
                         "expected distances, with 0 there; 1 - X are distances; diagonal='births' "
                         "treats the diagonal as births of the points, diagonal='any' as 0")
     if array.ndim == 1 and (diagonal == "births" or symmetrise is not None):
@@ -133,8 +133,8 @@ def _warn_of_a_matrix(points: NDArray[np.float64]) -> None:
             points == points[0, 1]) >= rows * (rows - 1):
         return
     number, what, distances = ("0", "distances", "X") if is_zero else ("1", "correlations", "1 - X")
-    warnings.warn(f"X: {rows} points of R^{rows} were taken; the array is symmetric, with {number} "
-                  f"on its diagonal, as {what} are; metric='precomputed' takes {distances} for "
+    warnings.warn(f"X: read as {rows} points of R^{rows}; the array is symmetric, with {number} "
+                  f"on its diagonal, as {what} are; metric='precomputed' takes {distances} as "
                   "distances", UserWarning, stacklevel=_options.user_level())
 
 

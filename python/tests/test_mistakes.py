@@ -16,12 +16,12 @@ CORRELATIONS = np.corrcoef(SERIES.T)
 
 
 @pytest.mark.parametrize("X, words", [
-    (CORRELATIONS, "with 1 on its diagonal, as correlations are; .* takes 1 - X for distances"),
-    (1 - CORRELATIONS, "with 0 on its diagonal, as distances are; .* takes X for distances"),
+    (CORRELATIONS, "with 1 on its diagonal, as correlations are; .* takes 1 - X as distances"),
+    (1 - CORRELATIONS, "with 0 on its diagonal, as distances are; .* takes X as distances"),
     (1e9 * (1 - CORRELATIONS), "as distances are"), (1e-9 * (1 - CORRELATIONS), "as distances are")])
 @pytest.mark.parametrize("function", [ph.rips, ph.estimate, ph.merge_tree])
 def test_a_matrix_taken_for_points(function, X, words):
-    with pytest.warns(UserWarning, match=f"X: 8 points of R.8 were taken; .*{words}") as caught:
+    with pytest.warns(UserWarning, match=f"X: read as 8 points of R.8; .*{words}") as caught:
         function(X)
     assert caught[0].filename == __file__
 
@@ -121,7 +121,7 @@ def test_a_barcode_is_no_data(tmp_path):
 
 def test_diagrams_of_other_shapes():
     bars = ph.rips(SERIES)
-    for wrong, words in ((bars.dgms(), "a list of arrays, .* a.1. are those of H1"),
+    for wrong, words in ((bars.dgms(), "a list of arrays, .* a.1. has those of H1"),
                          (bars.to_numpy("gudhi"), "pairs .dimension, .birth, death..")):
         with pytest.raises(ph.UsageError, match=f"a: found {words}"):
             ph.bottleneck(wrong, bars.dgm(1))

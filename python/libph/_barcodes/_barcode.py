@@ -210,7 +210,7 @@ class Barcode(Cells, Summaries, Sequence[Bar]):
 
     def __array__(self, dtype: Any = None, copy: bool | None = None) -> NDArray[Any]:
         if copy is False:
-            raise ValueError("a Barcode becomes an array by a copy")
+            raise ValueError("a Barcode cannot become an array without a copy")
         rows = np.column_stack(self._arrays)
         return rows if dtype is None else rows.astype(dtype, copy=False)
 

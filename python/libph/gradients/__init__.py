@@ -156,7 +156,8 @@ def _values_of(bars: Any, X: Any, weights: Any) -> CellValues:
     meta = bars.meta
     kind = meta.get("complex")
     if weights is not None and meta.get("weights") != "given":
-        raise UsageError("weights: do nothing, the barcode was computed without an array of weights")
+        raise UsageError("weights: do nothing, because the barcode was computed without weights given as "
+                         "an array")
     values: CellValues
     if kind == "rips" and "points" in meta:
         values = RipsValues(X, meta, weights)

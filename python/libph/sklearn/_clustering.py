@@ -166,8 +166,8 @@ class PersistenceClustering(ClusterMixin, BaseEstimator):
         if wanted >= parts:
             return np.asarray(hills.passes[order[wanted - parts:]])
         warnings.warn(f"n_clusters: found {wanted}, but the graph of neighbours has {parts} parts: "
-                      "those with densest points near each other are joined; a larger k joins them, "
-                      "too", ConvergenceWarning, stacklevel=3)
+                      "the parts whose densest points are nearest to each other are joined; a larger k "
+                      "also joins parts", ConvergenceWarning, stacklevel=3)
         return np.concatenate([hills.passes, self._joined_parts(points, hills, wanted)])
 
     def _joined_parts(self, points: _Numbers, hills: _Hills, wanted: int) -> _Integers:

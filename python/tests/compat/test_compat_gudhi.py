@@ -214,7 +214,7 @@ def test_what_is_elsewhere():
     for name in ("write_points_to_off_file", "pick_n_random_points", "sparsify_point_set"):
         with pytest.raises(ph.NotBuiltIn, match=f"^{name}: "):
             getattr(gudhi, name)(points=SQUARE)
-    with pytest.raises(ph.NotBuiltIn, match="ph.farthest_points tells which points"):
+    with pytest.raises(ph.NotBuiltIn, match="ph.farthest_points gives the indices of the points"):
         gudhi.choose_n_farthest_points(points=SQUARE, nb_points=2)
     gudhi.random.set_seed(1)
     with pytest.raises(AttributeError):

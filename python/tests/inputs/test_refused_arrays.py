@@ -153,7 +153,7 @@ BAD = [
     ("sparse conflict of duplicates", ph.rips, (pairs((0, 2, 1.0), (0, 2, 4.0)),), pre, "found 1"),
     ("a diagonal", ph.rips, (matrix((1, 1, 0.5)),), pre, "row 1, column 1: found 0.5"),
     ("a sparse diagonal", ph.rips, (pairs((1, 1, 0.5)),), pre, "row 1, column 1: found 0.5"),
-    ("correlations", ph.rips, (np.eye(3),), pre, "1 on all of the diagonal"),
+    ("correlations", ph.rips, (np.eye(3),), pre, "1 on the whole diagonal"),
     ("negative births", ph.rips, (matrix((1, 1, -1)),), {**pre, "diagonal": "births"}, "vertex 1"),
     ("infinite births", ph.rips, (matrix((1, 1, INF)),), {**pre, "diagonal": "births"},
      "vertex 1"),

@@ -36,7 +36,7 @@ _ELSEWHERE = {
 
 _INSTEAD = {
     "SimplexTree": "ph.filtered takes simplices and values",
-    "choose_n_farthest_points": "ph.farthest_points tells which points",
+    "choose_n_farthest_points": "ph.farthest_points gives the indices of the points",
     "plot_persistence_barcode": "ph.rips(...).plot('barcode') draws bars",
     "plot_persistence_diagram": "ph.rips(...).plot() draws bars",
     "read_points_from_off_file": "ph.read(path).vertices has the points of an OFF file",
