@@ -74,9 +74,9 @@ Cloud cloud_of_depth(const DepthImage& image, const std::optional<Raster>& colou
   Cloud cloud =
       cloud_from_depth(image.depth, colour, fitting, scale.value_or(image.scale), &counts);
   if (counts.negative > 0)
-    note(fmt::format("{} pixels have a depth below 0 and count as holes", counts.negative));
+    note(fmt::format("pixels with a depth below 0, which count as holes: {}", counts.negative));
   if (counts.unseen > 0) {
-    note(fmt::format("{} pixels have no ray through the camera's lens and count as holes",
+    note(fmt::format("pixels without a ray through the camera's lens, which count as holes: {}",
                      counts.unseen));
   }
   return cloud;

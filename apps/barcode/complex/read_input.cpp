@@ -22,7 +22,7 @@ std::string note_on_mesh(const ReadResult& read, const Job& job) {
       !mesh->values.empty())
     return {};
   return fmt::format(
-      "the {} faces are not used, the vertices are points; --values FILE gives values of the "
+      "the vertices are points, and the {} faces are not used; --values FILE gives values of the "
       "vertices and filters the mesh",
       mesh->faces());
 }

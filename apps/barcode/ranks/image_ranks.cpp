@@ -57,7 +57,7 @@ RankResult image_of_ranks(const Job& job, Transport& transport, app::Session& se
   input.options.loops = true;
   const int parts = std::min(size, ImagePart::most_parts(input.image, input.options.cubical));
   if (parts < size)
-    session.note(fmt::format("{} have nothing to do: the image has {}",
+    session.note(fmt::format("nothing to do for {}: the image has {}",
                              app::count_of(static_cast<std::size_t>(size - parts), "rank"),
                              app::count_of(static_cast<std::size_t>(parts), "layer")));
   RankResult result;

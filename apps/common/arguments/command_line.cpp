@@ -104,7 +104,7 @@ void add_common_options(Options& options, CommonOptions& common) {
                  common.progress);
   options.flag("--quiet", "no messages but errors", common.quiet);
   options.flag("--verbose", "say what was chosen and why", common.verbose);
-  options.flag("--force", "write over an input, which is refused else", common.force);
+  options.flag("--force", "write over an input, which is otherwise refused", common.force);
   options.flag("--version", "print the version and exit; with --verbose also what was built in",
                common.version);
   options

@@ -181,7 +181,7 @@ class Masks(ProgramTest):
         self.assertIn("value at [1], found NaN", self.expect(65, "n.npy").stderr)
         run = self.expect(0, "n.npy", "--nan", "drop", "--superlevel")
         self.assertEqual(run.stdout, "dim,birth,death\n0,-2,inf\n0,-1,inf\n")
-        self.assertIn("1 voxels are NaN: masked", run.stderr)
+        self.assertIn("1 voxel is NaN: masked", run.stderr)
 
 
 if __name__ == "__main__":

@@ -251,7 +251,9 @@ Image without_nan_pixels(Image image, const Input& input, const ReadOptions& opt
     }
   });
   image.masked = masked > 0;
-  if (image.masked) note(options, fmt::format("{} voxels are NaN: masked", masked));
+  if (image.masked)
+    note(options, fmt::format("{} NaN: masked",
+                              masked == 1 ? "1 voxel is" : fmt::format("{} voxels are", masked)));
   if (image.values.empty() && !options.allow_empty) {
     input.fail({"no voxels", fmt::format("shape ({})", fmt::join(image.extents, ", ")),
                 "at least one", mark(Setting::allow_empty) + " accepts an empty image"});

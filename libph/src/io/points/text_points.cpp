@@ -234,8 +234,8 @@ Points without_nan_rows(Points points, const Input& input, const ReadOptions& op
     }
   }
   if (kept != points.rows()) {
-    note(options, fmt::format("{} of {} points have a NaN coordinate: left out",
-                              points.rows() - kept, points.rows()));
+    note(options, fmt::format("{} of {} points {} a NaN coordinate: left out", points.rows() - kept,
+                              points.rows(), points.rows() - kept == 1 ? "has" : "have"));
     points.keep_rows(kept);
   }
   return points;
