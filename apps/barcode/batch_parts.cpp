@@ -61,7 +61,7 @@ bool is_there(const std::string& path, const InputsPart::Whole& whole, int part,
   const auto kept =
       kept_part(path, own, session, &InputsPart::of_bytes, [&](const InputsPart& there) {
         if (there.whole() != whole || !std::ranges::equal(there.numbers(), std::array{part}))
-          return "is another part, or belongs to other inputs or options";
+          return "is a different part, or belongs to different inputs or options";
         const bool is_complete = std::ranges::all_of(
             there.results(), [](const auto& result) { return result.failure.empty(); });
         return is_complete ? "" : "has inputs that failed";
@@ -91,7 +91,7 @@ Outcome run_batch_part(const std::vector<std::string>& inputs, const Job& job,
   for (std::size_t i = 0; i < inputs.size(); ++i)
     if (InputsPart::part_of(i, parts) == part) own.push_back(inputs[i]);
   if (job.sharing.resumes && is_there(path, whole, part, own, session))
-    return {app::kOk, fmt::format("{}: it is there already", path)};
+    return {app::kOk, fmt::format("{} already exists", path)};
   // The file is opened first, so that a failure to create it is reported early.
   app::Output output(path);
   InputsPart done(whole, part);

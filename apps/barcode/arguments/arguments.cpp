@@ -196,7 +196,7 @@ void check_together(Job& job) {
   check_part_arguments(job);
   if (!job.compare.empty()) {
     if (!job.inputs.empty())
-      reject(fmt::format("--compare: found INPUT '{}' beside it, expected two barcode files only",
+      reject(fmt::format("--compare: found INPUT '{}' as well, expected only two barcode files",
                          job.inputs.front()));
     return;
   }

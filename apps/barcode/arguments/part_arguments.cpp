@@ -83,33 +83,33 @@ void check_part_arguments(const Job& job) {
     return;
   }
   if (job.sharing.part && job.sharing.joins)
-    reject("--join: found beside --part; parts are computed first");
+    reject("--join: found together with --part; parts are computed first");
   const std::string_view option = job.sharing.part ? "--part" : "--join";
-  if (!job.compare.empty()) reject(fmt::format("{}: found beside --compare", option));
-  if (job.stored) reject(fmt::format("{}: found beside the word plot", option));
+  if (!job.compare.empty()) reject(fmt::format("{}: found together with --compare", option));
+  if (job.stored) reject(fmt::format("{}: found together with the word plot", option));
   if (!job.places.report.empty())
-    reject(
-        fmt::format("--report: found beside {}; `ph-barcode plot BARS --report` makes one of "
-                    "the bars",
-                    option));
+    reject(fmt::format(
+        "--report: found together with {}; `ph-barcode plot BARS --report` makes one of "
+        "the bars",
+        option));
   if (job.sharing.keeps_cells && job.wants_part_of_one() && !job.wants_image_part())
     reject("--keep-cells: makes sense for images only; parts of points always have the cells");
   if (job.sharing.joins && job.sharing.resumes) reject("--resume: makes sense with --part only");
   if (job.question.options.min_persistence < 0 && (job.sharing.joins || job.wants_part_of_one()))
-    reject(
-        fmt::format("--min-persistence: found a negative number beside {}: parts keep no bars of "
-                    "length 0",
-                    option));
+    reject(fmt::format(
+        "--min-persistence: found a negative number together with {}: parts keep no bars of "
+        "length 0",
+        option));
   if (job.sharing.joins && job.sharing.keeps_cells)
     reject("--keep-cells: makes sense with --part only");
   if (job.sharing.part && job.results.output_format)
     reject(
-        "--output-format: found beside --part, which writes a part file; --join writes other "
-        "formats");
+        "--output-format: found together with --part, which writes a part file; --join writes "
+        "other formats");
   for (const app::Plot& plot : job.places.plots)
     if (!plot.shows_bars())
-      reject(fmt::format("--plot-kind: found {} beside {}, expected a plot of bars", plot.kind,
-                         option));
+      reject(fmt::format("--plot-kind: found {} together with {}, expected a plot of bars",
+                         plot.kind, option));
 }
 
 }  // namespace ph::barcode

@@ -44,7 +44,7 @@ std::optional<CloudPart> kept_cloud_part(const std::string& path, const std::str
         return CloudPart::of_bytes(bytes, session.context());
       },
       [&](const CloudPart& kept) {
-        return kept.is_of(cloud.points, part, parts, cloud.options) ? "" : "is another part";
+        return kept.is_of(cloud.points, part, parts, cloud.options) ? "" : "is a different part";
       });
 }
 

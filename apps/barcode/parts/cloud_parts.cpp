@@ -52,7 +52,7 @@ Outcome run_cloud_part(const std::string& input, const Job& job, app::Session& s
   const CloudInput cloud = read_cloud_input(input, job, session);
   if (job.results.dry_run) return foresee(cloud, parts, "");
   if (job.sharing.resumes && kept_cloud_part(path, input, cloud, part, parts, session))
-    return {app::kOk, fmt::format("{}: it is there already", path)};
+    return {app::kOk, fmt::format("{} already exists", path)};
   app::InputFiles inputs;
   inputs.add(input);
   app::require_separate(inputs, std::array{app::Written{"--output", path}}, job.common.force);

@@ -81,7 +81,7 @@ std::optional<ImagePart> kept_image_part(const std::string& path, const std::str
         return ImagePart::of_bytes(bytes, session.context());
       },
       [&](const ImagePart& kept) {
-        return kept.is_of(image.image, part, parts, image.options) ? "" : "is another part";
+        return kept.is_of(image.image, part, parts, image.options) ? "" : "is a different part";
       });
 }
 
@@ -99,7 +99,7 @@ Outcome run_image_part(const std::string& input, const Job& job, app::Session& s
   const PartInput read = read_part_input(input, job.sharing.keeps_cells, job, session);
   if (job.results.dry_run) return foresee(read, parts, "");
   if (job.sharing.resumes && kept_image_part(path, input, read, part, parts, session))
-    return {app::kOk, fmt::format("{}: it is there already", path)};
+    return {app::kOk, fmt::format("{} already exists", path)};
   app::InputFiles inputs;
   inputs.add(input);
   app::require_separate(inputs, std::array{app::Written{"--output", path}}, job.common.force);

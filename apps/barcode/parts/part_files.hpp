@@ -41,7 +41,7 @@ std::optional<std::vector<std::byte>> kept_part_file(const std::string& path,
 /// reports this, and the part must be computed again.
 /// @param of_bytes makes a part from bytes; throws Error (bad_data) on other bytes.
 /// @param why_not a predicate that says why a part is not the requested part, for example "is
-/// another part"; empty if it is the requested part.
+/// a different part"; empty if it is the requested part.
 template <class OfBytes, class WhyNot>
 std::optional<std::invoke_result_t<OfBytes, std::span<const std::byte>>> kept_part(
     const std::string& path, std::span<const std::string> inputs, app::Session& session,

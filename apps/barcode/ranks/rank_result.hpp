@@ -43,7 +43,7 @@ auto kept_or_computed(const std::string& kept, const Job& job, app::Session& ses
                       FindKept&& find_kept, Compute&& compute, CanKeep&& can_keep) {
   if (job.sharing.resumes) {
     if (auto there = find_kept(); there && can_keep(*there)) {
-      session.explain(kept + " is there already");
+      session.explain(kept + " already exists");
       return std::move(*there);
     }
   }

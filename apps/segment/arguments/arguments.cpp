@@ -94,7 +94,8 @@ void require_inputs(const Arguments& a) {
   const auto reject = [](const std::string& what) { throw Error(ErrorKind::usage, what); };
   if (a.inputs.empty() && a.frames_from.empty() && !depth)
     reject("expected INPUT or --depth; see --help");
-  if (!a.frames_from.empty() && depth) reject("--frames-from: found --depth beside it");
+  if (!a.frames_from.empty() && depth)
+    reject("--frames-from: found --depth as well, expected one of them");
   if (!a.inputs.empty() && depth) reject("found both INPUT and --depth, expected one of them");
   for (const std::string& input : a.inputs) {
     if (input.empty()) reject("INPUT: found '', expected a path");

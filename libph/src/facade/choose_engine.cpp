@@ -41,11 +41,10 @@ void check_as_it_is(const Options& options, bool has_incidences) {
   if (options.collapse == Collapse::on)
     throw Error(ErrorKind::usage, "edge collapse is for Rips complexes only");
   if (!has_incidences && options.field != 2)  // mutant: field-without-incidences
-    throw Error(
-        ErrorKind::usage,
-        fmt::format("field {}: this boundary matrix has no incidence numbers, so only field "
-                    "2 is possible",
-                    options.field));
+    throw Error(ErrorKind::usage,
+                fmt::format("field {}: this boundary matrix has no incidence numbers, so "
+                            "only field 2 is possible",
+                            options.field));
 }
 
 void refuse(Engine asked, const Task& task) {

@@ -103,8 +103,8 @@ void persistence_image(std::span<const Bar> given, const ImageFrame& frame, doub
     const double weight = std::pow(bar.persistence(), power);
     if (!(weight < kInfinity))
       throw Error(ErrorKind::bad_data,
-                  fmt::format("{}: found a bar of length {} and the power {}, expected a finite "
-                              "weight",
+                  fmt::format("{}: found a bar of length {} and the power {}, expected "
+                              "a finite weight",
                               mark_place("persistence_image"), bar.persistence(), power));
     births.go_to(bar.birth);
     lengths.go_to(bar.persistence());

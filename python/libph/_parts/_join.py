@@ -57,7 +57,7 @@ def join_parts(parts: Iterable[_P], **run: Unpack[RunOptions]) -> _P:
     kind = type(chosen[0])
     for part in chosen:
         if type(part) is not kind:
-            raise DataError(f"parts: found {type(part).__name__} beside {kind.__name__}, expected "
-                            "parts of one kind")
+            raise DataError(f"parts: found {type(part).__name__} together with {kind.__name__}, "
+                            "expected parts of one kind")
     join = _core.join_image_parts if kind is ImagePart else _core.join_cloud_parts
     return kind(_run.run(join, [part._bytes for part in chosen], options=dict(run)))

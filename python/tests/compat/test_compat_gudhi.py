@@ -336,7 +336,7 @@ def test_a_file_of_perseus(tmp_path):
     assert image.all_cells().shape == (6, 7)
     with pytest.raises(ValueError, match="expected a PeriodicCubicalComplex"):
         gudhi.CubicalComplex(perseus_file=path)
-    with pytest.raises(ValueError, match="periodic_dimensions: found .* beside perseus_file"):
+    with pytest.raises(ValueError, match="periodic_dimensions: found .* with perseus_file"):
         gudhi.PeriodicCubicalComplex(perseus_file=path, periodic_dimensions=[True, False])
 
 

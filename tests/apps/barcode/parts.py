@@ -161,11 +161,11 @@ class Parts(PartsTest):
         self.assertTrue(resume()[0])
         is_new, said = resume()
         self.assertFalse(is_new)
-        self.assertIn("there already", said)
+        self.assertIn("already exists", said)
         self.assertTrue(resume("--superlevel")[0])
         is_new, said = resume()
         self.assertTrue(is_new)
-        self.assertIn("another part", said)
+        self.assertIn("a different part", said)
         with open(part, "rb") as file:
             whole = file.read()
         self.write("p.ph", whole[:-1] + bytes([whole[-1] ^ 1]))
@@ -188,7 +188,7 @@ class Parts(PartsTest):
                 ((image, "--part", "2"), "1/8"), ((image, "--part", "1/7"), "expected 1 to 6"),
                 ((volume, "--part", "1/2"), "dimension 0 alone, or 2 alone"),
                 ((series, "--part", "1/2"), "dimension 0 alone, or 3 alone"), ((image, "--resume"), "--part"),
-                ((image, "--keep-cells"), "--part"), ((image, "--part", "1/2", "--join"), "beside"),
+                ((image, "--keep-cells"), "--part"), ((image, "--part", "1/2", "--join"), "together with"),
                 (("square.txt", "--part", "1/2"), "expected an image"),
                 ((image, "--part", "1/2", "--field", "3"), "--field"),
                 ((image, "--part", "1/2", "--output-format", "json"), "--output-format"),
@@ -260,15 +260,15 @@ class Clouds(PartsTest):
         again = (cloud, *self.OPTIONS, "--part", "1/3", "-o", p[0], "--resume")
         old = time.time() - 1000
         os.utime(self.path(cloud), (old, old))
-        self.assertIn("there already", self.expect(0, *again).stderr)
-        self.assertIn("another part", self.expect(0, *again, "--threshold", "3").stderr)
+        self.assertIn("already exists", self.expect(0, *again).stderr)
+        self.assertIn("a different part", self.expect(0, *again, "--threshold", "3").stderr)
         self.expect(0, *again[:-1], "--quiet")
         kept = self.read(cloud)
         # Replaces the cloud by another one that has the same number of points and is older than the
         # part.
         self.write(cloud, self.read(other))
         os.utime(self.path(cloud), (old, old))
-        self.assertIn("another part", self.expect(0, *again).stderr)
+        self.assertIn("a different part", self.expect(0, *again).stderr)
         self.write(cloud, kept)
         os.utime(self.path(cloud), (old, old))
         self.write(p[0], b"ph part\n")
@@ -330,7 +330,7 @@ class Batches(PartsTest):
         name, = self.parts(1)
         before = os.stat(self.path(name)).st_ino
         run = self.expect(0, "in", "--part", "1/1", "-o", name, "--resume")
-        self.assertIn("there already", run.stderr)
+        self.assertIn("already exists", run.stderr)
         self.assertEqual(os.stat(self.path(name)).st_ino, before)
         self.write("in/new.csv", SQUARE.replace(" ", ","))
         self.expect(0, "in", "--part", "1/1", "-o", name, "--resume")

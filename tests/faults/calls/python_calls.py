@@ -322,7 +322,7 @@ CALLS = [(room, *row) for room, rows in {
         ("part.barcode(loops=3)", "UsageError", "loops: found 3"),
         ("ph.join_parts(3)", "UsageError", "parts: found 3"), ("ph.join_parts([])", "DataError", "found none"),
         ("ph.join_parts([part, part])", "DataError", "found part 1 after part 1"),
-        ("ph.join_parts([part, cloud])", "DataError", "CloudPart beside ImagePart"),
+        ("ph.join_parts([part, cloud])", "DataError", "CloudPart together with ImagePart"),
         ("ph.join_parts([part, ph.image_part(IMAGE * 2, 1, 2)])", "DataError", "seams that differ"),
         ("ph.join_parts([part, ph.image_part(IMAGE, 1, 2, superlevel=True)])", "DataError", "other extents"),
         ("ph.join_parts([cloud, ph.cloud_part(POINTS + 1, 1, 2)]).barcode()", "DataError", "other points"),

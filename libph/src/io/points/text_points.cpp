@@ -185,8 +185,7 @@ TextTable read_text_table(const Input& input, Allow allow, const ReadOptions& op
                                   : fmt::format("{}, the number of names in the header", width),
            k < width && lines.offset() == input.size()
                ? is_last_missing
-                     ? fmt::format("is the file truncated? if not, {} accepts the empty "
-                                   "cell",
+                     ? fmt::format("is the file truncated? if not, {} accepts the empty cell",
                                    mark(Setting::nan, "drop"))
                      : "is the file truncated?"
            : is_last_missing ? mark(Setting::nan, "drop") + " accepts an empty last cell"

@@ -186,7 +186,7 @@ class PeriodicCubicalComplex(CubicalComplex):
         if perseus_file:
             if periodic_dimensions is not None:
                 raise UsageError(f"periodic_dimensions: found {periodic_dimensions}, expected none "
-                                 "beside perseus_file, which marks periodic axes by extents below 0")
+                                 "with perseus_file, which marks periodic axes by extents below 0")
             periodic_dimensions = closed or [False] * axes
         if periodic_dimensions is None or len(periodic_dimensions) != axes:
             raise UsageError(f"periodic_dimensions: found {periodic_dimensions}, expected {axes} "
