@@ -38,7 +38,7 @@ def test_points_that_are_no_matrix(X):
 
 @pytest.mark.parametrize("dtype", [np.float32, np.float64])
 def test_correlations_given_as_distances(dtype):
-    with pytest.raises(ph.DataError, match="as correlations are, .* 1 - X are distances"):
+    with pytest.raises(ph.DataError, match="as in correlations, .* 1 - X are distances"):
         ph.rips(CORRELATIONS.astype(dtype), metric="precomputed")
     missing = CORRELATIONS.copy()
     missing[2, 3] = np.nan
