@@ -91,7 +91,7 @@ Segmentation cut_of_tree(const Input& input, const Arguments& arguments,
   s.tree = read_tree(input);
   require_input(arguments.given, kStoredTree);
   require_method(arguments.given, s.tree.method);
-  if (!s.tree.plane) s.plane_note = "the tree was made without one";
+  if (!s.tree.plane) s.plane_note = "the tree was made without a plane";
   s.barcode = barcode_of(s.tree.merge_tree);
   const auto start = std::chrono::steady_clock::now();
   cut_again(s, arguments.cut.over(s.tree.first_cut), context);

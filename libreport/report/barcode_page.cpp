@@ -79,8 +79,8 @@ Metadata metadata_of(const BarcodePage& page, const std::optional<CubicalImage>&
   if (page.tree) meta.tree = page.tree->meta;
   meta.provenance = page.provenance;
   if (cubical && !image)
-    meta.provenance.notes.emplace_back("Image",
-                                       "not shown: too large, or without two or three axes");
+    meta.provenance.notes.emplace_back(
+        "Image", "not shown: too large, or it has neither two nor three axes");
   return meta;
 }
 

@@ -300,7 +300,7 @@ def permutation_test(distances: ArrayLike, groups: Any, *, shuffles: int = 1000,
                          "one for each row of the distances")
     sizes = np.bincount(numbers, minlength=len(names))
     if len(names) < 2 or sizes.min() < 2:
-        raise UsageError(f"groups: found {len(names)} of sizes {sizes.tolist()}, expected at least "
+        raise UsageError(f"groups: found {len(names)} groups of sizes {sizes.tolist()}, expected at least "
                          "two groups of at least two")
     p, loss = _run.run(
         _core.permutation_test, matrix, numbers.astype(np.int64),

@@ -273,8 +273,8 @@ std::optional<std::string> parse_arguments(int argc, const char* const* argv, Jo
       app::is_folder(job.inputs[0]))
     throw Error(
         ErrorKind::no_input,
-        fmt::format("{}: it is a directory, a batch of inputs: give a folder for the results, -o "
-                    "FOLDER/, --plot FOLDER/ or --report FOLDER/",
+        fmt::format("{}: it is a directory, which is a batch of inputs; give a folder for the "
+                    "results: -o FOLDER/, --plot FOLDER/ or --report FOLDER/",
                     printable(job.inputs[0])));
   if (!job.places.report.empty()) job.command = app::typed_command("ph-barcode", argc, argv);
   return std::nullopt;

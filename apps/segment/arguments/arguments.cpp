@@ -127,10 +127,11 @@ void require_consistent(const Arguments& a) {
     throw Error(ErrorKind::usage, "--color: expected --depth with it");
   }
   if (!depth && !a.is_stream() && app::is_folder(a.inputs.front()))
-    throw Error(ErrorKind::no_input,
-                fmt::format("{}: it is a directory, a stream of frames: give an output for each of "
-                            "them, such as -o FOLDER/, or --json FILE with a line per frame",
-                            printable(a.inputs.front())));
+    throw Error(
+        ErrorKind::no_input,
+        fmt::format("{}: it is a directory, which is a stream of frames; give an output for "
+                    "each of them, such as -o FOLDER/, or --json FILE with a line per frame",
+                    printable(a.inputs.front())));
   if (!depth && !a.is_stream() && !may_be_image(a.inputs.front())) {
     if (a.image.has_camera())
       throw Error(ErrorKind::usage, fmt::format("{}: expected a depth image, found a cloud",

@@ -35,8 +35,8 @@ void require_device(std::size_t points, std::size_t axes) {
     throw Error(ErrorKind::resource, "device gpu: " + std::to_string(points) + " points of " +
                                          std::to_string(axes) + " coordinates need " +
                                          std::to_string(needed) + " bytes, but only " +
-                                         std::to_string(free) + " bytes are free of the " +
-                                         std::to_string(total) + " of " + device.name);
+                                         std::to_string(free) + " of the " + std::to_string(total) +
+                                         " bytes of " + device.name + " are free");
 }
 
 struct Cloud {

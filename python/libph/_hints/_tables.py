@@ -11,7 +11,7 @@ MODULE = _table(
     ("ripser Rips", "use ph.rips, or libph.compat.ripser for ripser.py's interface"),
     ("ripser_parallel", "use ph.rips, or libph.compat.gph for giotto-ph's interface"),
     ("vietoris_rips VietorisRips Ripser persistence persistent_homology barcode",
-     "use ph.rips of points or distances, ph.cubical of images"),
+     "use ph.rips for points or distances, ph.cubical for images"),
     ("RipsComplex", "use ph.rips, or libph.compat.gudhi for GUDHI's interface"),
     ("CubicalComplex PeriodicCubicalComplex",
      "use ph.cubical, or libph.compat.gudhi for GUDHI's interface"),
@@ -33,7 +33,7 @@ MODULE = _table(
     ("statistics persistence_statistics", "use bars.statistics(dim), or libph.sklearn.Statistics"),
     ("Atol ATOL atol", "use libph.sklearn.Atol"),
     ("euler euler_characteristic euler_characteristic_curve ecc ECC EulerCharacteristicCurve",
-     "use ph.euler_curve of an image, bars.euler_curve()"),
+     "use ph.euler_curve(image), bars.euler_curve()"),
     ("PersistenceScaleSpaceKernel PersistenceWeightedGaussianKernel persistence_scale_space heat",
      "use ph.diagram_kernels"),
     ("plot plot_diagrams plot_diagram plot_dgms plot_barcode plot_persistence_diagram "

@@ -126,7 +126,7 @@ SegmentedScene scene_of_state(const py::dict& state, const RunOptions& options) 
 segment::Segmentation segmentation_of_tree(const Input& tree, const RunContext& context) {
   segment::Segmentation result;
   result.tree = segment::read_tree(tree);
-  if (!result.tree.plane) result.plane_note = "the tree was made without one";
+  if (!result.tree.plane) result.plane_note = "the tree was made without a plane";
   result.barcode = segment::barcode_of(result.tree.merge_tree);
   result.cut = segment::cut(result.tree, result.tree.first_cut, context);
   return result;

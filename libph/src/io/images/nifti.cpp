@@ -175,8 +175,8 @@ void scale(Image& image, const Header& header, const Input& input, const ReadOpt
     scale_into(from, scaled.data());
     return Voxels(std::move(scaled));
   });
-  detail::note(options,
-               fmt::format("values scaled: {} times the stored ones plus {}", slope, intercept));
+  detail::note(options, fmt::format("values are scaled: {} times the stored value plus {}", slope,
+                                    intercept));
 }
 
 }  // namespace
