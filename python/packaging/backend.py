@@ -198,7 +198,9 @@ def dist_info_files():
 
 
 def write_wheel(folder, files):
-    """Writes a wheel with these files (content by name) and its metadata. @return its name."""
+    """Writes a wheel that contains the given files and its metadata.
+
+    @param files the content of each file, by name. @return the file name of the wheel."""
     information = dist_info_files()
     tag = re.search("Tag: (.*)", information["WHEEL"])[1]
     name = f"{NAME}-{version()}-{tag}.whl"

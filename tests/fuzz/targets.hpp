@@ -37,8 +37,8 @@ void run_vectorise_arguments(std::string_view bytes);
 /// The output of `--help all` of the program whose command line the target fuzzes; empty for
 /// targets that fuzz something else.
 std::string help_of(std::string_view target);
-/// Reads the bytes as input of ph-distance --groups. A digit before this input states the number of
-/// barcodes.
+/// Reads the input of ph-distance --groups. The first byte is a digit, the number of barcodes. The
+/// other bytes are the input.
 void run_distance_groups(std::string_view bytes);
 /// Reads the input of ph-vectorise --fitted, writes it and reads it again.
 void run_vectorise_fit(std::string_view bytes);

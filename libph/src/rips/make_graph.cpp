@@ -166,7 +166,7 @@ void check_device(const RipsData& data, const RipsOptions& options) {
   if (options.device == Device::cpu) return;
   std::string_view found;
   if (std::holds_alternative<SparseDistances>(data))
-    found = "some distances";
+    found = "a sparse matrix of distances";
   else if (!std::holds_alternative<HeldPoints>(data))
     found = "distances";
   else if (options.distance != PointDistance::euclidean)  // mutant: device-distance
@@ -174,10 +174,11 @@ void check_device(const RipsData& data, const RipsOptions& options) {
   else if (!options.births.empty() || options.dtm_neighbours)  // mutant: device-births
     found = "births of vertices";
   if (!found.empty())
-    throw Error(ErrorKind::usage,
-                fmt::format("device gpu: computes components (H0) of points with Euclidean "
-                            "distances, found {}",
-                            found));
+    throw Error(
+        ErrorKind::usage,
+        fmt::format("device gpu: found {}, expected components (H0) of points with Euclidean "
+                    "distances",
+                    found));
 }
 
 void check_approximation(const RipsData& data, const RipsOptions& options) {

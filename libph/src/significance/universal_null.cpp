@@ -19,8 +19,8 @@ void check(const Bar& bar) {
                             bar.birth, bar.death));
   if (!(bar.birth > 0) || std::isinf(bar.birth))
     throw Error(ErrorKind::bad_data,
-                fmt::format("universal_p_values: found a bar born at {}, expected a finite number "
-                            "above 0: ratios of death and birth are compared",
+                fmt::format("universal_p_values: found a bar born at {}, expected a finite birth "
+                            "above 0, because the test uses the ratio of death to birth",
                             bar.birth));
 }
 

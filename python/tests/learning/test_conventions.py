@@ -103,8 +103,9 @@ def density(dgm, sigma, births, lengths):
 
 
 def test_images_of_gudhi(dgm):
-    """GUDHI computes densities at points, including both ends of a range: these points are the
-    centres of pixels for a range that is half a step longer at both ends."""
+    """GUDHI computes densities at evenly spaced points, of which the first and the last are the ends
+    of a range. They are the centres of the pixels of a range that is longer by half a step at each
+    end."""
     sigma, (b, p), (low, high), longest = 0.2, (7, 5), (-1.0, 1.0), 2.0
     points = np.linspace(low, high, b), np.linspace(0, longest, p)
     step = (high - low) / (b - 1), longest / (p - 1)

@@ -284,7 +284,7 @@ class Options(ProgramTest):
                         ["--max-dim", "0", "--engine", "standard"],
                         ["--max-dim", "0", "--dtm", "2"]):
             run = self.expect(64, "line.txt", "--device", "gpu", *options)
-            self.assertIn("device gpu: computes components (H0) of points", run.stderr)
+            self.assertIn("expected components (H0) of points with Euclidean distances", run.stderr)
         self.write("matrix.txt", "0 1\n1 0\n")
         run = self.expect(64, "matrix.txt", "--format", "distance", "--device", "gpu")
         self.assertIn("--device: makes sense for Rips complexes of points only", run.stderr)

@@ -55,7 +55,7 @@ def rows(Row):
         "--voxel": Row("--voxel", "0.4", unfit=POINTS),
         "--voxel-value": Row("--voxel-value", "density", unfit=POINTS),
         "--collapse": Row("--collapse", "on", sign=r"collapse {} \(asked for\)", unfit=POINTS),
-        "--device": Row("--device", "gpu", unfit=POINTS + "|computes components|not built in"),
+        "--device": Row("--device", "gpu", unfit=POINTS + "|expected components|not built in"),
         "--subsample": Row("--subsample", "6", unfit=POINTS + "|no sample"),
         "--subsample-radius": Row("--subsample-radius", "0.5", unfit=POINTS + "|no sample"),
         "--approximate": Row("--approximate", "0.5", sign="times too late", unfit=POINTS + "|no approximation"),

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""ph-distance: distances agree with the definitions in all formats; also tests matrices, and inputs
-of all formats."""
+"""Tests of ph-distance: distances agree with the definitions in every format of output, matrices are
+right, and every format of input is read."""
 import itertools
 import json
 import math

@@ -74,7 +74,8 @@ void expect_betti_numbers(const Barcode& bars, int closed, std::size_t component
 
 void check_definition(const PeriodicCloud& cloud) {
   const Alpha alpha(cloud.points, cloud.options());
-  // The oracle lists each subset of the points on a sphere, including copies of points.
+  // The oracle takes every subset of the points on a sphere for a cell. Copies of points are on the
+  // same sphere, so its cells may have more than three dimensions. Such clouds are skipped.
   if (static_cast<int>(alpha.copies().size()) + alpha.top_dim() > 3) return;
   const PeriodicOracle oracle(cloud.points, cloud.period, cloud.weights);
   double size = 1;

@@ -11,14 +11,17 @@ const Points kSquare{{0, 0}, {1, 0}, {1, 1}, {0, 1}};
 const RipsOptions kForest{.device = Device::gpu};
 
 TEST(Device, DoesComponentsOfEuclideanPointsAlone) {
-  const std::string can = "device gpu: computes components (H0) of points with Euclidean distances";
+  const auto message = [](const std::string& found) {
+    return "device gpu: found " + found +
+           ", expected components (H0) of points with Euclidean distances";
+  };
   const auto refused = [&](const std::string& found, const auto& data, const RipsOptions& options) {
-    expect_error(ErrorKind::usage, can + ", found " + found, [&] { Rips(data, options); });
+    expect_error(ErrorKind::usage, message(found), [&] { Rips(data, options); });
   };
   const auto refused_task = [&](const RipsOptions& options, const Options& task) {
-    expect_error(ErrorKind::usage, can + ", found more than components",
+    expect_error(ErrorKind::usage, message("another task"),
                  [&] { plan(Rips(kSquare, options), task); });
-    expect_error(ErrorKind::usage, can + ", found more than components",
+    expect_error(ErrorKind::usage, message("another task"),
                  [&] { persistence(Rips(kSquare, options), task); });
   };
   refused_task(kForest, {});
@@ -33,7 +36,7 @@ TEST(Device, DoesComponentsOfEuclideanPointsAlone) {
   options.births = births;
   refused("births of vertices", kSquare, options);
   refused("distances", DistanceMatrix(2, {1}), kForest);
-  refused("some distances", SparseDistances(2, {}), kForest);
+  refused("a sparse matrix of distances", SparseDistances(2, {}), kForest);
   refused("distances", PointMetric(kSquare), kForest);
 }
 

@@ -108,7 +108,9 @@ void copy_cells(Triangulation& result, std::size_t sites, ForEachCell&& for_each
   });
   constexpr std::size_t most = std::size_t{1} << 29;
   if (count >= most)
-    throw Error(ErrorKind::resource, "Delaunay triangulation: found 2^29 cells or more");
+    throw Error(ErrorKind::resource,
+                "Delaunay triangulation: found 2^29 cells or more, expected fewer; use fewer "
+                "points");
   context.poll();
   result.cells.resize(count);
   result.across.resize(count);

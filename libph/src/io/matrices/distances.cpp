@@ -35,7 +35,7 @@ class RowNames {
     lines.fail(lines.line().data(),
                {"rows and columns in different orders",
                 fmt::format("row {} with the name {}", row, printable(name, 40)),
-                printable(column, 40) + ", the name of the column",
+                fmt::format("{}, the name of column {}", printable(column, 40), row),
                 {}});
   }
 

@@ -180,8 +180,9 @@ class RipsFiltration {
   static constexpr std::uint32_t kNoVertex = UINT32_MAX;
   static constexpr int kNoSlot = -1;
 
-  /// Extends a clique by every smaller vertex that edges up to `limit` join to all vertices of the
-  /// clique.
+  /// Visits each clique that consists of the given clique and `missing` smaller vertices. The keys
+  /// of the added edges are at most `limit`. @param candidates the smaller vertices that are joined
+  /// to all vertices of the clique.
   template <class Visit>
   void extend_clique(const Cell& clique, std::span<const Neighbour> candidates, int missing,
                      Key limit, std::vector<std::vector<Neighbour>>& scratch, Visit&& visit) const;
