@@ -42,7 +42,7 @@ def test_correlations_given_as_distances(dtype):
         ph.rips(CORRELATIONS.astype(dtype), metric="precomputed")
     missing = CORRELATIONS.copy()
     missing[2, 3] = np.nan
-    with pytest.raises(ph.DataError, match="as correlations are"):
+    with pytest.raises(ph.DataError, match="as in correlations"):
         ph.rips(missing, metric="precomputed")
     bars = ph.rips(1 - CORRELATIONS, metric="precomputed")
     assert len(bars.dgm(0)) == 8
