@@ -94,6 +94,29 @@ Eigen::Vector3d row(const Points& points, std::uint32_t i) {
   return as_matrix(points).row(i).transpose();
 }
 
+/// The mean of rise times direction times its transpose over the neighbours of a voxel. As a form
+/// on the tangent plane, it says how much the surface rises in each direction.
+class MeanRise {
+ public:
+  void add(double rise, const Eigen::Vector3d& direction) {
+    sum_ += rise * direction * direction.transpose();
+    ++count_;
+  }
+  /// The largest eigenvalue on the tangent plane, or 0 if it is negative. At the corner of a box on
+  /// another box, the surface is a valley in one direction and a ridge in the other. The mean over
+  /// all directions is then zero, but this number is the height of the valley.
+  double largest(const Eigen::Vector3d& normal) const {
+    if (count_ == 0) return 0;
+    const Eigen::Vector3d u = normal.unitOrthogonal(), v = normal.cross(u);
+    const double uu = u.dot(sum_ * u), uv = u.dot(sum_ * v), vv = v.dot(sum_ * v);
+    return std::max(0.0, ((uu + vv) / 2 + std::hypot((uu - vv) / 2, uv)) / count_);
+  }
+
+ private:
+  Eigen::Matrix3d sum_ = Eigen::Matrix3d::Zero();
+  int count_ = 0;
+};
+
 }  // namespace
 
 Points surface_normals(const Points& centroids, std::span<const VoxelPair> pairs, double radius,
@@ -138,24 +161,17 @@ double rise(const Points& centroids, const Points& normals, const VoxelPair& pai
 
 std::vector<double> concavity(const Points& centroids, const Points& normals,
                               std::span<const VoxelPair> pairs) {
-  struct Mean {
-    double sum = 0;
-    int count = 0;
-    void add(double value) {
-      sum += value;
-      ++count;
-    }
-  };
-  std::vector<Mean> means(static_cast<std::size_t>(centroids.rows()));
+  std::vector<MeanRise> means(static_cast<std::size_t>(centroids.rows()));
   for (const VoxelPair& p : pairs) {
     const double value = rise(centroids, normals, p);
     if (!std::isfinite(value)) continue;
-    means[p.u].add(value);
-    means[p.v].add(value);
+    const Eigen::Vector3d direction = (row(centroids, p.v) - row(centroids, p.u)) / p.distance;
+    means[p.u].add(value, direction);
+    means[p.v].add(value, direction);
   }
   std::vector<double> values(means.size());
   for (std::size_t v = 0; v < means.size(); ++v)
-    if (means[v].count > 0) values[v] = std::max(0.0, means[v].sum / means[v].count);
+    values[v] = means[v].largest(row(normals, static_cast<std::uint32_t>(v)));
   return values;
 }
 

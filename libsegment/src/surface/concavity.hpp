@@ -20,10 +20,12 @@ Points surface_normals(const Points& centroids, std::span<const VoxelPair> pairs
 /// if the voxels are exchanged.
 double rise(const Points& centroids, const Points& normals, const VoxelPair& pair);
 
-/// The concavity of the surface at each voxel: the mean rise over the pairs of the voxel, or 0 if
-/// the mean is negative. It is about 0 where the surface is flat or convex, and large along the
-/// seam where one object stands on or touches another (the criterion of LCCP; Stein, Schoeler,
-/// Papon & Wörgötter, Object partitioning using local convexity, 2014).
+/// The principal concavity of the surface at each voxel: the rise in the direction in which the
+/// surface rises most. It is the largest eigenvalue, on the tangent plane, of the mean of
+/// rise · d dᵀ over the pairs of the voxel, where d is the direction of a pair; or 0 if that is
+/// negative. It is about 0 where the surface is flat or convex, and large along the seam where one
+/// object stands on or touches another (the criterion of LCCP; Stein, Schoeler, Papon & Wörgötter,
+/// Object partitioning using local convexity, 2014).
 /// @param pairs pairs of voxels that are near each other.
 std::vector<double> concavity(const Points& centroids, const Points& normals,
                               std::span<const VoxelPair> pairs);

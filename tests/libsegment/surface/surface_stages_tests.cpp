@@ -93,11 +93,14 @@ TEST(VoxelPairs, EveryWayToVoxelsWithoutNeighboursIsRefused) {
   for (const Method method : {Method::surface, Method::supervoxels}) {
     const auto far = static_cast<float>(0x1p70);
     EXPECT_EQ(failure({0, 0, far}, {0, 0, far}, {.method = method}), ErrorKind::usage);
-    EXPECT_EQ(failure({0, 1e20F, 0}, {}, {.method = method, .max_range = kInfinity}),
-              ErrorKind::usage);
+    EXPECT_EQ(
+        failure({0, 1e20F, 0}, {}, {.method = method, .voxel = 0.005, .max_range = kInfinity}),
+        ErrorKind::usage);
     EXPECT_EQ(failure({0, 0, 1}, {}, {.method = method, .voxel = 1e-17}), ErrorKind::usage);
   }
   EXPECT_EQ(failure({0, 0, 1}, {}, {.method = Method::paper, .voxel = 1e-17}), std::nullopt);
+  EXPECT_EQ(failure({0, 1e20F, 0}, {}, {.max_range = kInfinity}), std::nullopt)
+      << "the default voxel grows with the range";
 }
 
 TEST(VoxelPairs, HugeVoxelsAreRefusedOrHoldAll) {
@@ -185,8 +188,55 @@ TEST(Concavity, IsLargeInValleysAndZeroOnRidges) {
     if (angle <= 0)
       EXPECT_LT(seam, 1e-9);
     else
-      EXPECT_GT(seam, 0.5 * std::sin(angle));
+      EXPECT_GT(seam, 0.3 * std::sin(angle));
   }
+}
+
+/// A corner of a box on a larger box, seen from above: the top of the lower box (z = 0) and two
+/// walls of the upper box, which meet at the origin.
+Points corner_on_a_box(double step) {
+  std::vector<Vec3> points;
+  for (double x = -0.05; x < 0.05; x += step)
+    for (double y = -0.05; y < 0.05; y += step)
+      if (x < 0 || y < 0) points.push_back({x, y, 0});
+  for (double z = step; z < 0.05; z += step) {
+    points.push_back({0, 0, z});
+    for (double t = step; t < 0.05; t += step) {
+      points.push_back({0, t, z});
+      points.push_back({t, 0, z});
+    }
+  }
+  Points result(static_cast<Index>(points.size()), 3);
+  for (Index i = 0; i < result.rows(); ++i)
+    for (Index k = 0; k < 3; ++k)
+      result(i, k) = points[static_cast<std::size_t>(i)][static_cast<std::size_t>(k)];
+  return result;
+}
+
+TEST(Concavity, IsLargeWhereASeamGoesAroundACorner) {
+  const Points points = corner_on_a_box(0.005);
+  const auto pairs = pairs_within(points, 0.015);
+  const Points normals = surface_normals(points, pairs, 0.012, {-1, -1, 1});
+  const std::vector<double> f = concavity(points, normals, pairs);
+  int places = 0;
+  for (std::uint32_t v = 0; v < f.size(); ++v) {
+    // Next to the vertical edge and a little above the seam, the surface is a ridge in one
+    // direction and a valley in the other.
+    if (std::abs(points(v, 2) - 0.01) > 1e-9 ||
+        std::abs(points(v, 0) + points(v, 1) - 0.005) > 1e-9)
+      continue;
+    double sum = 0;
+    int count = 0;
+    for (const VoxelPair& pair : pairs)
+      if (pair.u == v || pair.v == v) {
+        sum += rise(points, normals, pair);
+        ++count;
+      }
+    EXPECT_LT(sum / count, 0.03) << "the mean over all directions hides the valley";
+    EXPECT_GT(f[v], 0.13);
+    ++places;
+  }
+  EXPECT_EQ(places, 2);
 }
 
 TEST(WeakSeams, AreOnARidgeAndNotInAValley) {
