@@ -33,22 +33,26 @@ ConcavityNoise::ConcavityNoise(const std::vector<double>& ranges,
 }
 
 double ConcavityNoise::at(double range) const {
-  constexpr double least = 0.01, typical = 0.02, most = 0.13;
-  if (measured_.empty()) return typical;
+  constexpr double least = 1e-3;
+  constexpr NoiseAt typical{1, 0.03};
+  // Outside the measured ranges, the noise changes like the noise of depth.
+  const auto scaled = [&](const NoiseAt& from) {
+    return from.concavity * (range / from.range) * (range / from.range);  // mutant: noise-range
+  };
   double noise = 0;
   const auto next = std::ranges::lower_bound(measured_, range, {}, &NoiseAt::range);
-  if (next == measured_.begin()) {
-    noise = next->concavity;
+  if (measured_.empty()) {
+    noise = scaled(typical);
+  } else if (next == measured_.begin()) {
+    noise = scaled(*next);
   } else if (next == measured_.end()) {
-    // Beyond the last range, the noise grows like the noise of depth.
-    const NoiseAt& last = measured_.back();
-    noise = last.concavity * (range / last.range) * (range / last.range);  // mutant: noise-range
+    noise = scaled(measured_.back());
   } else {
     const NoiseAt& before = *(next - 1);
     const double t = (range - before.range) / (next->range - before.range);
     noise = before.concavity + t * (next->concavity - before.concavity);
   }
-  return std::clamp(noise, least, most);  // mutant: noise-limits
+  return std::max(noise, least);  // mutant: noise-limits
 }
 
 }  // namespace ph::segment

@@ -15,8 +15,8 @@ class ConcavityNoise {
   /// @param values the concavity measured at each of these places.
   ConcavityNoise(const std::vector<double>& ranges, const std::vector<double>& values);
 
-  /// The noise at a range, or a typical value if nothing was measured. It is never so small that
-  /// details of an object exceed it many times, nor so large that no seam stands out.
+  /// The noise at a range, or a typical value if nothing was measured. It is never zero, even for a
+  /// point at the viewpoint.
   double at(double range) const;
   /// The measured values, nearest first.
   const std::vector<NoiseAt>& measured() const { return measured_; }
