@@ -32,13 +32,19 @@ class HiddenJoins {
 
   double nearer() const { return 2 * voxel_; }
   auto kind() const {
-    return [this](std::uint32_t v) { return parts_.of[v]; };
+    return [this](std::uint32_t v) {
+      return parts_.of[v] == kSmall ? kSmall : object_of_[parts_.of[v]];
+    };
   }
 
  public:
-  HiddenJoins(const VoxelGrid& grid, const Surface& surface, double voxel, const Parts& parts)
+  /// @param object_of for each part, its object as far as it is known. Parts of one object do not
+  /// hide each other.
+  HiddenJoins(const VoxelGrid& grid, const Surface& surface, double voxel, const Parts& parts,
+              std::vector<std::uint32_t> object_of)
       : voxel_(voxel),
         parts_(parts),
+        object_of_(std::move(object_of)),
         view_(grid.centroids, voxel, surface.viewpoint),
         borders_(parts.count()) {
     for (std::uint32_t v = 0; v < parts.of.size(); ++v)
@@ -109,6 +115,7 @@ class HiddenJoins {
 
   double voxel_;
   const Parts& parts_;
+  std::vector<std::uint32_t> object_of_;
   View view_;
   std::vector<Border> borders_;  // the border of each part
 };
@@ -125,9 +132,13 @@ std::vector<Index> join_parts(const VoxelGrid& grid, const Surface& surface, dou
     const std::uint32_t a = objects.find(p), b = objects.find(q);
     objects.link(std::max(a, b), std::min(a, b));
   };
-  HiddenJoins(grid, surface, voxel, parts).find(context, join);
+  // The inside of a mug is not the continuation of the box below it, although the wall of the mug
+  // hides the place between them. Therefore, rims are joined first.
   if (surface.support)
     join_around_rims(grid.centroids, voxel, surface.support->normal, parts, join, context);
+  std::vector<std::uint32_t> around_rims;
+  for (std::uint32_t p = 0; p < parts.count(); ++p) around_rims.push_back(objects.find(p));
+  HiddenJoins(grid, surface, voxel, parts, std::move(around_rims)).find(context, join);
   std::vector<Index> object_of = part_of;
   for (std::size_t v = 0; v < object_of.size(); ++v)
     if (parts.of[v] != kSmall) object_of[v] = part_of[parts.example[objects.find(parts.of[v])]];

@@ -15,7 +15,7 @@
 namespace ph::segment {
 namespace {
 
-constexpr std::size_t kFewestOfEach = 9;  // sectors
+constexpr std::size_t kFewestOfEach = 7;  // sectors
 
 /// The sectors of the circle in which a rim has points. Empty if the rim is not on the circle.
 std::optional<Sectors> arc(const Circle& circle, const UpperEnd& rim, double tolerance) {
@@ -27,7 +27,7 @@ std::optional<Sectors> arc(const Circle& circle, const UpperEnd& rim, double tol
 
 bool share_a_rim(const UpperEnd& a, const UpperEnd& b, double voxel) {
   constexpr double height = 2, of_voxel = 1.6, of_radius = 0.1;
-  constexpr std::size_t all = 26, of_both = 2;  // sectors of 10 degrees
+  constexpr std::size_t all = kSectors / 2, of_both = 2;
   if (std::abs(a.top - b.top) > height * voxel) return false;
   const Circle circle = fit_circle({&a.points, &b.points});
   const double tolerance = std::min(of_voxel * voxel, of_radius * circle.radius);

@@ -34,7 +34,7 @@ void assign_points_in_openings(const CloudView& cloud, const std::vector<Index>&
 /// Finds the inside and the outside of round vessels (bowls, cups, pots) whose rims are too thin to
 /// show a surface that joins the inside and the outside. The upper ends of both parts are then at
 /// the same height and on one circle. Each part has its own arc, and the two arcs together cover
-/// nearly the whole circle.
+/// at least half of the circle.
 /// @param up the unit normal of the support. @param join called with the numbers of the two parts
 /// of a vessel.
 /// @throws Error (cancelled) as `context` asks.

@@ -109,9 +109,13 @@ TEST(Rims, ArcsAtDifferentHeightsDoNot) {
 
 TEST(Rims, ArcsThatLeaveTheCircleOpenDoNot) {
   TwoWalls open;
-  open.add_arc(0, 0.6 * kPi, 0.08, 0.07, 0);
-  open.add_arc(kPi, 1.6 * kPi, 0.08, 0.07, 1);
+  open.add_arc(0, 0.42 * kPi, 0.08, 0.07, 0);
+  open.add_arc(kPi, 1.42 * kPi, 0.08, 0.07, 1);
   EXPECT_FALSE(open.joined());
+  TwoWalls half;  // what is seen of a mug at two metres
+  half.add_arc(0, 0.6 * kPi, 0.08, 0.07, 0);
+  half.add_arc(kPi, 1.6 * kPi, 0.08, 0.07, 1);
+  EXPECT_TRUE(half.joined());
 }
 
 TEST(Rims, ArcsOfDifferentCirclesDoNot) {  // two cups, one behind the other
