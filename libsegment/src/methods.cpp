@@ -49,6 +49,25 @@ bool is_too_fine(const Scene& scene, Index voxels, const VoxelPairs& pairs, doub
   return static_cast<double>(half.cells.size()) < of_half * static_cast<double>(voxels);
 }
 
+/// The least edge of a voxel at the range of most points. Depth has steps that grow with the range;
+/// with smaller voxels, they would tear a surface that is seen at a slant.
+double edge_for_range(const Scene& scene) {
+  constexpr double per_metre = 0.004;  // two pixels of a camera with 640 columns
+  constexpr double quantile = 0.75;
+  const auto& [vx, vy, vz] = scene.cloud.viewpoint;
+  std::vector<double> ranges;
+  ranges.reserve(scene.points.beyond.size());
+  for (const Index i : scene.points.beyond) {
+    const float* p = scene.cloud.point(static_cast<std::size_t>(i));
+    ranges.push_back(std::hypot(p[0] - vx, p[1] - vy, p[2] - vz));
+  }
+  if (ranges.empty()) return 0;
+  const auto at = ranges.begin() +
+                  static_cast<std::ptrdiff_t>(quantile * static_cast<double>(ranges.size() - 1));
+  std::ranges::nth_element(ranges, at);
+  return per_metre * *at;
+}
+
 /// The concavity at each voxel, and the normals from which it was computed.
 struct Relief {
   Points normals;
@@ -90,7 +109,9 @@ ConcavityNoise noise_of(const Scene& scene, double voxel, const RunContext& cont
   constexpr int fewest_near = 16;
   if (!scene.plane) return {};
   const std::vector<Index> points =
-      free_patches(scene.cloud, scene.points.on, scene.points.beyond, *scene.plane, side * voxel);
+      free_patches(scene.cloud, scene.points.on,
+                   scene.before_walls.empty() ? scene.points.beyond : scene.before_walls,
+                   *scene.plane, side * voxel);
   const VoxelGrid grid = voxel_grid(scene.cloud, points, voxel);
   const VoxelPairs pairs = near_voxels(grid, voxel, context);
   const Relief relief = relief_of(grid, pairs, voxel, scene.cloud.viewpoint);
@@ -122,6 +143,8 @@ VoxelFiltration surface_filtration(const Scene& scene, const SegmentOptions& opt
   // The edge grows to at most about five times its first length.
   constexpr int most_times = 4;
   double voxel = options.voxel_size();
+  if (options.method == Method::surface && !options.voxel)
+    voxel = std::max(voxel, edge_for_range(scene));
   std::vector<Index> points;
   VoxelGrid grid;
   VoxelPairs pairs(&context.memory);

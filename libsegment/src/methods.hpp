@@ -38,6 +38,7 @@ struct Scene {
   Cleared points;
   std::optional<LowerSupport> lower;  ///< the support below the plane, if there is one
   std::vector<Index> lower_strip;     ///< points in the strip of the lower plane
+  std::vector<Index> before_walls;    ///< points.beyond with the points of the walls
 };
 
 /// The graph that a method makes of a scene. The vertices of `grid` belong to `points`.

@@ -2,6 +2,7 @@
 // W. J. Beksi and N. Papanikolopoulos, 3D Point Cloud Segmentation Using Topological Persistence,
 // ICRA 2016. The numbers of sections and algorithms here and in methods.cpp refer to this paper.
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <utility>
 
@@ -62,6 +63,27 @@ void clear_lower_support(const std::vector<Index>& in_range, Scene& scene, Segme
   result.tree.surfaces.push_back({Role::support, scene.lower->plane});
 }
 
+/// Removes the walls: planes behind which nothing is seen. They go before voxels are made, because
+/// most points of a room are on them.
+void clear_walls(Scene& scene, Segmentation& result) {
+  constexpr double thickness = 0.02;      // half of it, in metres
+  constexpr double largest_cosine = 0.5;  // of the angle with the support
+  constexpr int most = 4;
+  const PlaneMargin margin{thickness, scene.margin.noise};
+  scene.before_walls = scene.points.beyond;
+  for (int k = 0; k < most; ++k) {
+    const PlaneSearch search = find_plane(scene.cloud, scene.points.beyond, margin);
+    if (!search.plane || std::abs(cosine_between(*search.plane, *scene.plane)) >= largest_cosine ||
+        !bounds_the_view(*search.plane, scene.cloud))
+      return;
+    Cleared cleared = remove_plane(scene.cloud, scene.points.beyond, *search.plane, margin);
+    result.tree.surfaces.push_back({Role::wall, *search.plane});
+    mark(cleared.on, static_cast<std::uint8_t>(result.tree.surfaces.size()),
+         result.tree.removed_with);
+    scene.points.beyond = std::move(cleared.beyond);
+  }
+}
+
 /// The points in range that are above the supporting plane. The plane is also stored in the result.
 Scene clear_scene(const CloudView& cloud, const SegmentOptions& options, StageClock& clock,
                   Segmentation& result) {
@@ -79,14 +101,13 @@ Scene clear_scene(const CloudView& cloud, const SegmentOptions& options, StageCl
     return scene;
   }
   // Section VI of the paper: "we find all points that correspond to a planar model and remove them"
-  PlaneSearch search = find_plane(cloud, in_range, scene.margin.distance, options.plane_guess);
-  if (options.method != Method::paper && options.plane_noise > 0) {
+  const bool is_paper = options.method == Method::paper;
+  if (!is_paper) scene.margin.noise = options.noise_floor();
+  PlaneSearch search =
+      (is_paper ? find_plane : find_support)(cloud, in_range, scene.margin, options.plane_guess);
+  if (!is_paper && options.plane_noise > 0) {
     constexpr double deviations = 4;
-    // This is the height of the noise at the range of the plane.
-    const double noise = deviations * search.noise * search.range * search.range;
-    if (noise > 2 * scene.margin.distance)
-      search = find_plane(cloud, in_range, noise, options.plane_guess);
-    scene.margin.noise = std::max(options.noise_floor(), deviations * search.noise);
+    scene.margin.noise = std::max(scene.margin.noise, deviations * search.noise);
   }
   result.tree.plane = scene.plane = search.plane;
   result.plane_note = std::move(search.note);
@@ -95,7 +116,10 @@ Scene clear_scene(const CloudView& cloud, const SegmentOptions& options, StageCl
     scene.points = remove_plane(cloud, in_range, *scene.plane, scene.margin);
     mark(scene.points.on, 1, result.tree.removed_with);
     result.tree.surfaces.push_back({Role::support, *scene.plane});
-    if (options.method == Method::surface) clear_lower_support(in_range, scene, result);
+    if (options.method == Method::surface) {
+      clear_lower_support(in_range, scene, result);
+      clear_walls(scene, result);
+    }
     result.tree.removed = std::ssize(result.tree.surfaces);
     scene.in_range = std::move(in_range);
   } else

@@ -10,29 +10,6 @@
 
 namespace ph::segment {
 
-/// The result of the search for the supporting plane.
-struct PlaneSearch {
-  std::optional<Plane> plane;
-  std::string note;  ///< the reason why there is no plane; empty if there is one
-  /// The standard deviation of the heights of the plane's points at a range of one unit, assuming
-  /// that it grows with the square of the range. It is estimated from the points behind the plane,
-  /// where there are no objects. It is 0 if these points are too few.
-  double noise = 0;
-  double range = 0;  ///< median distance of the plane's points from the viewpoint
-};
-
-/// Finds the supporting plane, which is the plane with the most points. Uses RANSAC on a sample
-/// (Fischler & Bolles 1981, scored as in MSAC, Torr & Zisserman 2000) and least-squares refits.
-/// Takes O(points) time. The number of hypotheses is fixed, so the worst case is as fast as the
-/// best case. A hash of the coordinates draws the sample. The plane therefore does not depend on
-/// the order of the points, on duplicates, or on scaling by a power of two.
-/// @param points indices into the cloud, none of them a hole.
-/// @param distance half the thickness of the plane, in metres, > 0. @param guess the plane of a
-/// previous frame, which replaces the hypotheses if the share of the points on it is still nearly
-/// Plane::share.
-PlaneSearch find_plane(const CloudView& cloud, const std::vector<Index>& points, double distance,
-                       const std::optional<Plane>& guess = {});
-
 /// The distance from a plane up to which a point counts as part of it.
 struct PlaneMargin {
   double distance;  ///< in metres
@@ -46,6 +23,37 @@ struct PlaneMargin {
     return std::max(distance, noise * (x * x + y * y + z * z));
   }
 };
+
+/// The result of the search for a plane.
+struct PlaneSearch {
+  std::optional<Plane> plane;
+  std::string note;  ///< the reason why there is no plane; empty if there is one
+  /// The standard deviation of the heights of the plane's points at a range of one unit, assuming
+  /// that it grows with the square of the range. It is estimated from the points behind the plane,
+  /// where there are no objects. It is 0 if these points are too few.
+  double noise = 0;
+};
+
+/// A plane with a smaller share of the points supports nothing.
+inline constexpr double kLeastShareOfSupport = 0.1;
+
+/// Finds the plane with the most points. Uses RANSAC on a sample (Fischler & Bolles 1981, scored as
+/// in MSAC, Torr & Zisserman 2000) and least-squares refits. Takes O(points) time. The number of
+/// hypotheses is fixed, so the worst case is as fast as the best case. A hash of the coordinates
+/// draws the sample. The plane therefore does not depend on the order of the points, on duplicates,
+/// or on scaling by a power of two.
+/// @param points indices into the cloud, none of them a hole.
+/// @param margin half the thickness of the plane. @param guess the plane of a previous frame, which
+/// replaces the hypotheses if the share of the points on it is still nearly Plane::share.
+PlaneSearch find_plane(const CloudView& cloud, const std::vector<Index>& points,
+                       const PlaneMargin& margin, const std::optional<Plane>& guess = {});
+
+/// Finds the supporting plane. It is the largest plane, unless nothing is seen behind it. Such a
+/// plane may be a wall; of this plane and the next largest ones, the support is then the plane on
+/// which most things stand. A plane behind which the surface goes on is a face of an object and
+/// supports nothing. Parameters as for find_plane.
+PlaneSearch find_support(const CloudView& cloud, const std::vector<Index>& points,
+                         const PlaneMargin& margin, const std::optional<Plane>& guess = {});
 
 /// The points in range, divided by a plane.
 struct Cleared {
@@ -65,6 +73,9 @@ Cleared remove_plane(const CloudView& cloud, const std::vector<Index>& points, c
 /// The share of all points of a cloud, without holes, that are behind a plane and beyond the
 /// margin. In a large cloud, the share is computed from a sample of the points.
 double share_behind(const CloudView& cloud, const Plane& plane, const PlaneMargin& margin);
+
+/// True if nearly all points of a cloud are on the viewpoint's side of a plane.
+bool bounds_the_view(const Plane& plane, const CloudView& cloud);
 
 /// The cosine of the angle between two planes, below zero if they face each other.
 double cosine_between(const Plane& a, const Plane& b);

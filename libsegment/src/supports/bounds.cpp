@@ -24,14 +24,6 @@ std::vector<Voxels> voxels_of(const Parts& parts) {
   return voxels;
 }
 
-/// True if nearly all points are on the viewpoint's side of a plane.
-bool bounds_the_view(const Plane& plane, const CloudView& cloud) {
-  constexpr PlaneMargin margin{0.02, 0.02};  // metres, and metres at a range of one metre
-  // The share of points behind the plane that reflections and flying pixels may cause.
-  constexpr double most_behind = 0.01;
-  return share_behind(cloud, plane, margin) <= most_behind;
-}
-
 /// The area of a plane that some voxels cover, in square metres.
 double covered_area(const Plane& plane, const Points& centroids, const Voxels& voxels,
                     double voxel) {

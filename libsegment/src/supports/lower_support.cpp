@@ -29,7 +29,7 @@ std::optional<LowerSupport> find_lower_support(const CloudView& cloud,
   }
   if (static_cast<double>(lower.points.size()) < kLeastPart * static_cast<double>(points.size()))
     return std::nullopt;
-  const PlaneSearch search = find_plane(cloud, lower.points, kThickness);
+  const PlaneSearch search = find_plane(cloud, lower.points, {kThickness, least_margin});
   if (!search.plane) return std::nullopt;
   lower.plane = *search.plane;
   if (cosine_between(upper, lower.plane) < kLeastCosine ||

@@ -26,12 +26,10 @@ std::optional<LowerSupport> find_lower_support(const CloudView& cloud,
                                                const std::vector<Index>& points, const Plane& upper,
                                                double least_margin);
 
-/// Determines what each segment stands on, and whether it is an object or may be one. A segment
-/// stands on a support if it reaches down to the support, that is, if some of its points are as low
-/// as the support. Otherwise it stands on the segment that it touches most, if they touch at its
-/// own lower end but not at the lower end of the other segment. A segment that stands on nothing
-/// visible is also an object, unless the border of an organised cloud cuts it off. In that case,
-/// its role is unknown. Does nothing if there is no support.
+/// Determines what each segment stands on. A segment stands on a support if it reaches down to the
+/// support, that is, if some of its points are as low as the support. Otherwise it stands on the
+/// segment that it touches most, if they touch at its own lower end but not at the lower end of the
+/// other segment. Every segment is an object.
 /// @param pairs pairs of voxels that are near each other.
 void find_what_it_stands_on(const SceneTree& scene, std::span<const VoxelPair> pairs,
                             SceneCut& cut);

@@ -62,45 +62,18 @@ std::vector<double> lower_ends(const SceneCut& cut, const std::vector<double>& h
   return ends;
 }
 
-/// The number of points of each segment at the border of the image, where some sensors see nothing.
-/// The width of the border is a sixty-fourth of the image's columns. The numbers are zero for an
-/// unorganised cloud.
-std::vector<Index> points_at_border(const SceneTree& scene, const SceneCut& cut) {
-  constexpr Index share = 64, least = 2;  // `least` is in pixels
-  std::vector<Index> count(cut.segments.size() + 1);
-  if (scene.height < 2) return count;
-  const Index width = std::max(least, scene.width / share);
-  std::size_t i = 0;
-  for (Index row = 0; row < scene.height; ++row)
-    for (Index column = 0; column < scene.width; ++column, ++i)
-      if (cut.labels[i] != 0 &&
-          std::min({column, scene.width - 1 - column, row, scene.height - 1 - row}) < width)
-        ++count[cut.labels[i]];
-  return count;
-}
-
-/// A segment that visibly stands on something is an object. A segment that stands on nothing
-/// visible and is cut off by the border of the view may be an object.
-void set_roles(const SceneTree& scene, SceneCut& cut) {
-  constexpr Index fewest = 10;  // the number of points at the border
-  const auto stands = [](const Segment& s) { return s.on.surface != 0 || s.on.segment != 0; };
-  for (Segment& s : cut.segments) s.role = Role::object;
-  if (std::ranges::all_of(cut.segments, stands)) return;
-  const std::vector<Index> at_border = points_at_border(scene, cut);
-  for (Segment& s : cut.segments)
-    if (!stands(s) && at_border[s.label] >= fewest) s.role = Role::unknown;
-}
-
 }  // namespace
 
 void find_what_it_stands_on(const SceneTree& scene, std::span<const VoxelPair> pairs,
                             SceneCut& cut) {
+  for (Segment& segment : cut.segments) segment.role = Role::object;
   if (scene.surfaces.empty()) return;
   constexpr Index fewest = 10;  // the number of points, or of pairs of voxels
   for (Index s = scene.removed; s-- > 0;) {
+    const SceneSurface& surface = scene.surfaces[static_cast<std::size_t>(s)];
+    if (surface.role != Role::support) continue;
     const auto number = static_cast<std::uint32_t>(s + 1);
-    const std::vector<Index> count =
-        points_at(scene, cut, scene.surfaces[static_cast<std::size_t>(s)].plane);
+    const std::vector<Index> count = points_at(scene, cut, surface.plane);
     for (Segment& segment : cut.segments)
       if (count[segment.label] >= fewest) segment.on = {number, 0};
   }
@@ -142,7 +115,6 @@ void find_what_it_stands_on(const SceneTree& scene, std::span<const VoxelPair> p
     stands_on(both.first, both.second, contact);
     stands_on(both.second, both.first, contact);
   }
-  set_roles(scene, cut);
 }
 
 }  // namespace ph::segment

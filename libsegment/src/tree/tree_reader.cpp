@@ -124,8 +124,8 @@ class TreeReader {
   void read_surfaces() {
     for (std::int64_t k = 0; k < surfaces_; ++k) {
       SceneSurface& surface = scene_.surfaces.emplace_back();
-      const bool removed = k < scene_.removed;
-      surface.role = static_cast<Role>(integer("role of a surface", 1, removed ? 1 : 2));
+      // The first surface is the supporting plane.
+      surface.role = static_cast<Role>(integer("role of a surface", 1, k == 0 ? 1 : 2));
       surface.plane.normal = finite("normal of a surface");
       require_unit("normal of a surface", surface.plane.normal);
       surface.plane.offset = number("offset of a surface");

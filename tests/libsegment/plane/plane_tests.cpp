@@ -35,7 +35,7 @@ std::vector<float> tilted_plane(int count, int outliers, double noise) {
 TEST(Plane, IsFoundAmongNoiseAndOutliers) {
   for (const int outliers : {0, 5000, 10000, 15000}) {
     const std::vector<float> xyz = tilted_plane(20000, outliers, 0.001);
-    const PlaneSearch search = find_plane({xyz, {}}, all_of(xyz), 0.006);
+    const PlaneSearch search = find_plane({xyz, {}}, all_of(xyz), {0.006});
     ASSERT_TRUE(search.plane) << search.note;
     const double length = std::sqrt(1.25);  // length of (0, 0.5, -1)
     EXPECT_NEAR(search.plane->normal[0], 0, 0.002);
@@ -58,7 +58,7 @@ TEST(Plane, TellsHowNoisyItsPointsAre) {
       for (const double c : {x, y, 1 + object + noise * square * gauss(random)})
         xyz.push_back(static_cast<float>(c));
     }
-    const PlaneSearch search = find_plane({xyz, {}}, all_of(xyz), 0.005);
+    const PlaneSearch search = find_plane({xyz, {}}, all_of(xyz), {0.005});
     ASSERT_TRUE(search.plane) << search.note;
     EXPECT_NEAR(search.noise, noise, 0.15 * noise + 3e-4);
   }
@@ -67,7 +67,7 @@ TEST(Plane, TellsHowNoisyItsPointsAre) {
 TEST(Plane, LooksAtTheSensor) {
   const std::vector<float> xyz = tilted_plane(1000, 0, 0);
   for (const Vec3& viewpoint : {Vec3{0, 0, 0}, Vec3{0, 0, 3}}) {
-    const PlaneSearch search = find_plane({xyz, viewpoint}, all_of(xyz), 0.006);
+    const PlaneSearch search = find_plane({xyz, viewpoint}, all_of(xyz), {0.006});
     ASSERT_TRUE(search.plane);
     EXPECT_GT(search.plane->signed_distance(viewpoint[0], viewpoint[1], viewpoint[2]), 0);
   }
@@ -78,7 +78,7 @@ TEST(Plane, RemovesItselfAndWhatLiesBehind) {
   // Points in front of the plane, behind it and on it.
   xyz.insert(xyz.end(), {0, 0, 0.9F, 0, 0, 1.1F, 0, 0, 0.999F});
   const CloudView cloud{xyz, {}};
-  const PlaneSearch search = find_plane(cloud, all_of(xyz), 0.006);
+  const PlaneSearch search = find_plane(cloud, all_of(xyz), {0.006});
   ASSERT_TRUE(search.plane);
   EXPECT_EQ(remove_plane(cloud, all_of(xyz), *search.plane, {0.006}).beyond,
             (std::vector<Index>{1000}));
@@ -86,7 +86,7 @@ TEST(Plane, RemovesItselfAndWhatLiesBehind) {
 
 TEST(Plane, DoesNotDependOnOrderDuplicatesOrPowersOfTwo) {
   const std::vector<float> xyz = tilted_plane(20000, 8000, 0.002);
-  const Plane plane = find_plane({xyz, {}}, all_of(xyz), 0.006).plane.value();
+  const Plane plane = find_plane({xyz, {}}, all_of(xyz), {0.006}).plane.value();
 
   std::vector<std::size_t> order(xyz.size() / 3);
   std::iota(order.begin(), order.end(), 0U);
@@ -102,30 +102,30 @@ TEST(Plane, DoesNotDependOnOrderDuplicatesOrPowersOfTwo) {
     return other.normal == plane.normal && other.offset == scale * plane.offset &&
            other.share == plane.share;
   };
-  EXPECT_TRUE(same(find_plane({shuffled, {}}, all_of(shuffled), 0.006).plane.value(), 1));
-  EXPECT_TRUE(same(find_plane({twice, {}}, all_of(twice), 0.006).plane.value(), 1));
-  EXPECT_TRUE(same(find_plane({scaled, {}}, all_of(scaled), 0.006 * 64).plane.value(), 64));
+  EXPECT_TRUE(same(find_plane({shuffled, {}}, all_of(shuffled), {0.006}).plane.value(), 1));
+  EXPECT_TRUE(same(find_plane({twice, {}}, all_of(twice), {0.006}).plane.value(), 1));
+  EXPECT_TRUE(same(find_plane({scaled, {}}, all_of(scaled), {0.006 * 64}).plane.value(), 64));
 }
 
 TEST(Plane, SaysWhyThereIsNone) {
   const std::vector<float> two = {0, 0, 1, 0, 1, 1};
-  EXPECT_NE(find_plane({two, {}}, all_of(two), 0.006).note.find("fewer than three"),
+  EXPECT_NE(find_plane({two, {}}, all_of(two), {0.006}).note.find("fewer than three"),
             std::string::npos);
   std::vector<float> line, spot;
   for (int i = 0; i < 100; ++i) {
     line.insert(line.end(), {static_cast<float>(i) * 0.01F, 0, 1});
     spot.insert(spot.end(), {0.5F, 0.5F, 0.5F});
   }
-  EXPECT_NE(find_plane({line, {}}, all_of(line), 0.006).note.find("line"), std::string::npos);
-  EXPECT_NE(find_plane({spot, {}}, all_of(spot), 0.006).note.find("at one point"),
+  EXPECT_NE(find_plane({line, {}}, all_of(line), {0.006}).note.find("line"), std::string::npos);
+  EXPECT_NE(find_plane({spot, {}}, all_of(spot), {0.006}).note.find("at one point"),
             std::string::npos);
-  EXPECT_FALSE(find_plane({{}, {}}, {}, 0.006).plane);
+  EXPECT_FALSE(find_plane({{}, {}}, {}, {0.006}).plane);
 
   std::mt19937 random(1);
   std::normal_distribution<float> any(0, 1);
   std::vector<float> ball;
   for (int i = 0; i < 30000; ++i) ball.push_back(any(random));
-  const PlaneSearch search = find_plane({ball, {}}, all_of(ball), 0.006);
+  const PlaneSearch search = find_plane({ball, {}}, all_of(ball), {0.006});
   EXPECT_FALSE(search.plane);
   EXPECT_NE(search.note.find("largest one holds"), std::string::npos);
 }
@@ -133,7 +133,7 @@ TEST(Plane, SaysWhyThereIsNone) {
 TEST(Plane, HundredThousandsOfDuplicatesAreOnePoint) {
   std::vector<float> xyz = tilted_plane(500, 0, 0);
   for (int i = 0; i < 300000; ++i) xyz.insert(xyz.end(), {0.1F, 0.1F, 0.5F});
-  const PlaneSearch search = find_plane({xyz, {}}, all_of(xyz), 0.006);
+  const PlaneSearch search = find_plane({xyz, {}}, all_of(xyz), {0.006});
   ASSERT_TRUE(search.plane) << search.note;
   EXPECT_NEAR(search.plane->normal[1], 0.5 / std::sqrt(1.25), 1e-4);
 }

@@ -100,7 +100,7 @@ TEST(Surfaces, AWallIsNoObject) {
   const Room room({kTable, kLeft, kRight, kWall});
   const Segmentation s = room.segmented();
   ASSERT_EQ(s.tree.surfaces.size(), 2U);
-  EXPECT_EQ(s.tree.removed, 1);
+  EXPECT_EQ(s.tree.removed, 2);
   EXPECT_EQ(s.tree.surfaces[0].role, Role::support);
   EXPECT_EQ(s.tree.surfaces[0].plane, *s.tree.plane);
   EXPECT_EQ(s.tree.surfaces[1].role, Role::wall);
@@ -140,7 +140,7 @@ TEST(Surfaces, OnlyTheSurfaceMethodHasWalls) {
   const Segmentation all = room.segmented({.plane = false});
   EXPECT_TRUE(all.tree.surfaces.empty());
   EXPECT_EQ(std::ranges::count(all.cut.surface_labels, 0), std::ssize(all.cut.surface_labels));
-  for (const Segment& segment : all.cut.segments) EXPECT_EQ(segment.role, Role::unknown);
+  for (const Segment& segment : all.cut.segments) EXPECT_EQ(segment.role, Role::object);
 }
 
 TEST(Surfaces, WhatStandsOnTheFloorIsFound) {
@@ -194,8 +194,8 @@ TEST(Surfaces, ALargeBoardIsASupportASmallOneIsAnObject) {
     if (width > 0.5) {
       EXPECT_EQ(of_board, 0U);
       ASSERT_EQ(s.tree.surfaces.size(), 2U);
-      EXPECT_EQ(s.tree.surfaces[1].role, Role::support);
-      EXPECT_EQ(on, (StandsOn{2, 0}));
+      for (const SceneSurface& surface : s.tree.surfaces) EXPECT_EQ(surface.role, Role::support);
+      EXPECT_GT(room.share_on(s, 1, static_cast<int>(on.surface)), 0.9);
     } else {
       EXPECT_EQ(s.tree.surfaces.size(), 1U);
       EXPECT_EQ(on, (StandsOn{0, of_board}));
@@ -215,7 +215,7 @@ TEST(Surfaces, AStackStandsOnItsLowestBox) {
   EXPECT_EQ(s.cut.segments[above - 1].role, Role::object);
 }
 
-TEST(Surfaces, WhatIsCutOffAndStandsOnNothingIsUnknown) {
+TEST(Surfaces, WhatIsCutOffAndStandsOnNothingIsAnObject) {
   const Block hanging{{-0.25, 0.1, 0.3}, {-0.1, 0.2, 0.42}},
       beside{{0.7, -0.3, 0.1}, {1.5, 0.0, 0.3}};
   const Block front{{0.05, -0.2, 0}, {0.45, -0.12, 0.25}},
@@ -223,10 +223,9 @@ TEST(Surfaces, WhatIsCutOffAndStandsOnNothingIsUnknown) {
   const Room room({kTable, hanging, front, behind, beside});
   const Segmentation s = room.segmented();
   const auto segment = [&](int block) { return s.cut.segments.at(room.label_of(s, block) - 1); };
-  for (const int block : {1, 2, 3}) EXPECT_EQ(segment(block).role, Role::object) << block;
+  for (const int block : {1, 2, 3, 4}) EXPECT_EQ(segment(block).role, Role::object) << block;
   EXPECT_EQ(segment(1).on, StandsOn());
   EXPECT_EQ(segment(4).on, StandsOn());
-  EXPECT_EQ(segment(4).role, Role::unknown);
 }
 
 // ---- from frame to frame

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "libsegment/src/plane/plane.hpp"
+
+namespace ph::segment {
+
+/// Some of the points of a cloud, with an array for each coordinate, so that the compiler can
+/// vectorise over them.
+struct Sample {
+  std::vector<double> x, y, z;
+  std::vector<double> limits;  ///< the margin of a plane at each point, in metres
+  std::size_t size() const { return x.size(); }
+  Eigen::Vector3d operator[](std::size_t i) const { return {x[i], y[i], z[i]}; }
+};
+
+/// Draws a random sample in random order that depends only on the set of points: the distinct
+/// points with the smallest hashes, in the order of their hashes. If there are fewer than the size
+/// of a sample, all points are taken. @param points indices into the cloud.
+Sample draw_sample(const CloudView& cloud, const std::vector<Index>& points,
+                   const PlaneMargin& margin);
+
+/// Mixes the bits of a word by the finaliser of splitmix64 (Steele, Lea & Flood 2014).
+std::uint64_t mix(std::uint64_t x);
+
+}  // namespace ph::segment

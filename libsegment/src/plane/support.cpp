@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "libsegment/src/plane/plane.hpp"
+#include "libsegment/src/plane/sample.hpp"
+#include "libsegment/src/plane/squares.hpp"
+#include "libsegment/src/plane/stages.hpp"
+
+namespace ph::segment {
+namespace {
+
+using Square = std::array<double, 2>;
+
+constexpr double kSide = 0.05;  // the side of a square of a plane, in metres
+// How far from a plane a point may belong to something that stands on the plane or that the plane
+// is a face of, in metres.
+constexpr double kReach = 0.1;
+// Points nearer to the plane than this number of margins may belong to the plane itself.
+constexpr double kMargins = 2;
+
+/// The squares of a plane in which the points of a sample are.
+struct Squared {
+  std::set<Square> on;         ///< the squares in which the plane itself is seen
+  std::size_t points_on = 0;   ///< the number of points there
+  std::set<Square> in_front;   ///< the squares in which something is up to kReach in front
+  std::vector<Square> behind;  ///< for each point up to kReach behind the plane, its square
+};
+
+Squared squared(const Plane& plane, const Sample& sample) {
+  const Squares squares(plane, kSide);
+  Squared result;
+  for (std::size_t i = 0; i < sample.size(); ++i) {
+    const double height = plane.signed_distance(sample.x[i], sample.y[i], sample.z[i]);
+    const double limit = sample.limits[i];
+    if (std::abs(height) <= limit) {
+      ++result.points_on;
+      result.on.insert(squares.of(sample[i]));
+    } else if (std::abs(height) > kMargins * limit && std::abs(height) < kReach) {
+      if (height > 0)
+        result.in_front.insert(squares.of(sample[i]));
+      else
+        result.behind.push_back(squares.of(sample[i]));
+    }
+  }
+  return result;
+}
+
+/// True if the plane is a face of something: the surface goes on just behind the plane, where the
+/// plane itself is seen. Behind a table, there is only its edge.
+bool goes_on_behind(const Squared& plane) {
+  // A share of the points on the plane. The edge of a board of 3 cm has 0.05, faces of boxes have
+  // 0.11 and more.
+  constexpr double most = 0.08;
+  const auto below =
+      std::ranges::count_if(plane.behind, [&](const Square& s) { return plane.on.contains(s); });
+  return static_cast<double>(below) > most * static_cast<double>(plane.points_on);
+}
+
+/// The first and the last square of each row or column in which the plane is seen.
+class Extents {
+ public:
+  void add(double line, double at) {
+    const auto [known, is_new] = of_.try_emplace(line, at, at);
+    known->second = {std::min(known->second.first, at), std::max(known->second.second, at)};
+  }
+  bool surround(double line, double at) const {
+    constexpr double least = 2;  // squares of the plane on both sides
+    const auto known = of_.find(line);
+    return known != of_.end() && known->second.first + least <= at &&
+           at <= known->second.second - least;
+  }
+
+ private:
+  std::map<double, std::pair<double, double>> of_;
+};
+
+/// The number of squares in which something is in front of the plane, and the plane is seen on all
+/// four sides: the area of the plane on which things stand. In front of a wall, things are at its
+/// lower end.
+std::size_t squares_with_things(const Squared& plane) {
+  Extents rows, columns;
+  for (const auto& [column, row] : plane.on) {
+    rows.add(row, column);
+    columns.add(column, row);
+  }
+  return static_cast<std::size_t>(std::ranges::count_if(plane.in_front, [&](const Square& s) {
+    const auto& [column, row] = s;
+    return rows.surround(row, column) && columns.surround(column, row);
+  }));
+}
+
+}  // namespace
+
+PlaneSearch find_support(const CloudView& cloud, const std::vector<Index>& points,
+                         const PlaneMargin& margin, const std::optional<Plane>& guess) {
+  constexpr int most_planes = 4;
+  PlaneSearch largest = find_plane(cloud, points, margin, guess);
+  if (!largest.plane) return largest;
+  const Sample sample = draw_sample(cloud, points, margin);
+  const Squared around = squared(*largest.plane, sample);
+  if (goes_on_behind(around))
+    return {std::nullopt, "no plane: the surface goes on behind the largest one"};
+  if (!bounds_the_view(*largest.plane, cloud)) return largest;
+  PlaneSearch support = largest;
+  std::size_t most_things = squares_with_things(around);
+  std::vector<Index> rest = points;
+  for (int k = 1; k < most_planes; ++k) {
+    std::erase_if(rest, [&](Index i) {
+      const float* p = cloud.point(static_cast<std::size_t>(i));
+      return std::abs(largest.plane->signed_distance(p[0], p[1], p[2])) <=
+             kMargins * margin(cloud, p);
+    });
+    largest = find_plane(cloud, rest, margin);
+    if (!largest.plane) break;
+    largest.plane->share *= static_cast<double>(rest.size()) / static_cast<double>(points.size());
+    const Squared seen = squared(*largest.plane, sample);
+    if (largest.plane->share < kLeastShareOfSupport || goes_on_behind(seen)) break;
+    if (const std::size_t things = squares_with_things(seen); things > most_things) {
+      most_things = things;
+      support = largest;
+    }
+  }
+  return support;
+}
+
+}  // namespace ph::segment
