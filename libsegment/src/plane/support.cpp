@@ -61,6 +61,14 @@ bool goes_on_behind(const Squared& plane) {
   return static_cast<double>(below) > most * static_cast<double>(plane.points_on);
 }
 
+/// True if the plane is the visible side of a single object: nothing is in front of it, and it is
+/// smaller than a table.
+bool is_alone(const Squared& plane) {
+  constexpr double least_table = 0.2;  // square metres
+  return plane.in_front.empty() &&
+         static_cast<double>(plane.on.size()) * kSide * kSide < least_table;
+}
+
 /// The first and the last square of each row or column in which the plane is seen.
 class Extents {
  public:
@@ -105,6 +113,9 @@ PlaneSearch find_support(const CloudView& cloud, const std::vector<Index>& point
   const Squared around = squared(*largest.plane, sample);
   if (goes_on_behind(around))
     return {std::nullopt, "no plane: the surface goes on behind the largest one"};
+  if (is_alone(around))
+    return {std::nullopt,
+            "no plane: the largest one is smaller than a table, and nothing is on it"};
   if (!bounds_the_view(*largest.plane, cloud)) return largest;
   PlaneSearch support = largest;
   std::size_t most_things = squares_with_things(around);
