@@ -5,8 +5,8 @@
     score.py build/release --seeds 0-19
 
 prints, for each kind, the mean F measure of objects with its standard error, and the mean number of
-strays: segments of which less than half lies on objects. The score of a frame is the mean over five
-voxel edges (4.7 to 5.3 mm).
+strays: segments of which less than half lies on objects. A segment of ph-segment counts if its role
+is that of an object. The score of a frame is the mean over five voxel edges (4.7 to 5.3 mm).
 
 A program for --peer is NAME = COMMAND, as for segmentation_scores.py. The printed difference is our
 F minus its F, averaged over the frames. A command with {edge} runs once per voxel edge: {edge}
@@ -18,6 +18,7 @@ Needs numpy.
 import argparse
 import concurrent.futures
 import csv
+import json
 import os
 import pathlib
 import shlex
@@ -44,6 +45,13 @@ def variants(program, kind, edges):
     return [Program(program.name, text.replace("{edge}", edge)) for edge in edges]
 
 
+def of_objects(labels, summary):
+    """The labels of a run of ph-segment, with 0 for segments of other roles, such as containers."""
+    segments = json.loads(summary.read_text())["segments"]
+    others = [s["label"] for s in segments if s["role"] != "object"]
+    return numpy.where(numpy.isin(labels, others), 0, labels)
+
+
 def strays(truth, labels):
     """The number of segments of which less than half of the points with truth is on objects."""
     known = (truth > 0) & (labels > 0)
@@ -63,7 +71,11 @@ def score(kind, seed, programs, edges, keep):
         for program in programs:
             found = []
             for variant in variants(program, kind, edges):
-                labels = variant.labels(path, pathlib.Path(folder) / "labels")
+                outputs = pathlib.Path(folder) / "labels"
+                labels = variant.labels(path, outputs)
+                if (summary := outputs / "summary.json").exists():
+                    labels = of_objects(labels, summary)
+                    summary.unlink()
                 scores = segmentation_metrics.score(scene.truth, labels, False, False)
                 found.append((scores.f, strays(scene.truth, labels)))
             results.append(numpy.mean(found, axis=0))
@@ -121,7 +133,10 @@ def parse():
 def main():
     arguments = parse()
     ph_segment = shlex.quote(str(arguments.build.resolve() / "apps/segment/ph-segment"))
-    ours = f"{ph_segment} {{input}} --quiet --threads 1 --labels {{output}}.npy {{range}} {{edge}}"
+    ours = (
+        f"{ph_segment} {{input}} --quiet --threads 1 --labels {{output}}.npy "
+        "--json {outputs}/summary.json {range} {edge}"
+    )
     programs = [Program(OURS, f"{ours} {arguments.ours}"), *arguments.peer]
     edges = EDGES[:1] if arguments.one_edge else EDGES
     if arguments.keep:

@@ -2,10 +2,12 @@
 #include "libsegment/src/methods.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "libsegment/src/objects/stages.hpp"
 #include "libsegment/src/objects/weak_seams.hpp"
 #include "libsegment/src/scene/options.hpp"
+#include "libsegment/src/supports/containers.hpp"
 #include "libsegment/src/supports/stages.hpp"
 #include "libsegment/src/voxels/rips_graph.hpp"
 #include "ph/detail/metric/pairs_within.hpp"
@@ -45,27 +47,32 @@ Contacts contacts_of(const SceneTree& scene, const Surface& surface, const CutOp
 
 }  // namespace
 
-std::vector<Index> components_of(const SceneTree& scene, const VoxelGrid& grid,
-                                 const Surface& surface, const CutOptions& options,
-                                 const RunContext& context) {
+Components components_of(const SceneTree& scene, const VoxelGrid& grid, const Surface& surface,
+                         const CutOptions& options, const RunContext& context) {
   // Section V.C of the paper: the sets joined to 0-simplices of infinite persistence. If the cut is
   // at the largest distance of the complex, every merge is performed.
-  if (scene.method == Method::paper) return scene.merge_tree.components(options.value);
+  if (scene.method == Method::paper) return {scene.merge_tree.components(options.value)};
   std::vector<Index> component_of = scene.merge_tree.basins(options.value, options.min_part);
-  if (scene.method == Method::supervoxels) return component_of;
+  if (scene.method == Method::supervoxels) return {std::move(component_of)};
   if (options.min_seam > 0)
     component_of = join_over_weak_seams(component_of, scene.merge_tree.births, surface.pairs,
                                         adjacent_radius(scene.voxel),
                                         options.min_seam * options.value, context);
-  if (!options.objects) return component_of;
-  return join_parts(grid, surface, scene.voxel, component_of, options.min_size, context);
+  if (!options.objects) return {std::move(component_of)};
+  Components objects{
+      join_parts(grid, surface, scene.voxel, component_of, options.min_size, context)};
+  objects.containers = join_containers(scene, surface, options.min_size, objects.of);
+  return objects;
 }
 
-SceneCut cut_into(const SceneTree& scene, const std::vector<Index>& component_of,
-                  const Surface& surface, const CutOptions& options, const RunContext& context) {
-  SceneCut result = extract_components(scene, component_of, options.min_size);
+SceneCut cut_into(const SceneTree& scene, const Components& components, const Surface& surface,
+                  const CutOptions& options, const RunContext& context) {
+  SceneCut result = extract_components(scene, components.of, options.min_size);
   find_neighbours(scene.merge_tree, contacts_of(scene, surface, options, result, context), result);
   find_what_it_stands_on(scene, surface.pairs, result);
+  for (const Index vertex : components.containers)
+    if (const std::uint32_t label = result.vertex_labels[static_cast<std::size_t>(vertex)])
+      result.segments[label - 1].role = Role::container;
   return result;
 }
 

@@ -65,16 +65,19 @@ VoxelFiltration surface_filtration(const Scene& scene, const SegmentOptions& opt
 VoxelFiltration rips_filtration(const Scene& scene, const SegmentOptions& options,
                                 const RunContext& context, StageClock& clock);
 
-/// The components that a cut leaves, including small components. The method, the voxel and the tree
-/// are read from `scene`.
+/// The components that a cut leaves, including small components.
+struct Components {
+  std::vector<Index> of;               ///< for each vertex, one of the vertices of its component
+  std::vector<Index> containers = {};  ///< one vertex of each component that is a container
+};
+
+/// The components of a cut. The method, the voxel and the tree are read from `scene`.
 /// @param grid its centroids are the vertices. @param surface empty in method paper.
-/// @return for each vertex, one of the vertices of its component.
-std::vector<Index> components_of(const SceneTree& scene, const VoxelGrid& grid,
-                                 const Surface& surface, const CutOptions& options,
-                                 const RunContext& context);
+Components components_of(const SceneTree& scene, const VoxelGrid& grid, const Surface& surface,
+                         const CutOptions& options, const RunContext& context);
 
 /// Makes the segments of a cut from its components.
-SceneCut cut_into(const SceneTree& scene, const std::vector<Index>& component_of,
-                  const Surface& surface, const CutOptions& options, const RunContext& context);
+SceneCut cut_into(const SceneTree& scene, const Components& components, const Surface& surface,
+                  const CutOptions& options, const RunContext& context);
 
 }  // namespace ph::segment

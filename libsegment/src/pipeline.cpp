@@ -206,18 +206,18 @@ Segmentation segment(const CloudView& input, const SegmentOptions& options,
   clock.finish("persistence", filtration.graph.size());
 
   keep_scene(cloud, filtration, options, result.tree);
-  const std::vector<Index> component_of = components_of(
-      result.tree, filtration.grid, filtration.surface, result.tree.first_cut, context);
+  const Components components = components_of(result.tree, filtration.grid, filtration.surface,
+                                              result.tree.first_cut, context);
   if (options.method == Method::surface && scene.plane)
-    assign_points_in_openings(cloud, scene.in_range, *scene.plane, filtration.voxel, component_of,
+    assign_points_in_openings(cloud, scene.in_range, *scene.plane, filtration.voxel, components.of,
                               result.tree.first_cut.min_size, filtration.points, filtration.grid);
   keep_points(cloud, filtration, result.tree);
   if (options.method == Method::surface && scene.plane)
-    std::ranges::copy(
-        find_bounds(cloud, *scene.plane, result.tree, component_of, result.tree.first_cut.min_size),
-        std::back_inserter(result.tree.surfaces));
+    std::ranges::copy(find_bounds(cloud, *scene.plane, result.tree, components.of,
+                                  result.tree.first_cut.min_size),
+                      std::back_inserter(result.tree.surfaces));
   result.cut =
-      cut_into(result.tree, component_of, filtration.surface, result.tree.first_cut, context);
+      cut_into(result.tree, components, filtration.surface, result.tree.first_cut, context);
   Index in_segments = 0;
   for (const Segment& s : result.cut.segments) in_segments += s.voxels;
   clock.finish("components", in_segments);

@@ -56,11 +56,12 @@ enum class Role {
   object = 0,
   support = 1,  ///< a plane that objects stand on: a table, a board, the floor
   wall = 2,  ///< a plane that hides everything behind it: a wall, the back or the side of a cabinet
-  unknown = 3  ///< it may be an object; the view cuts it off, and what it stands on is not seen
+  unknown = 3,   ///< no longer used; earlier versions gave it to what the view cuts off
+  container = 4  ///< a segment with objects in it: a bin, a tray with a rim, a bowl
 };
 /// The names of the roles, by number.
-inline constexpr std::array<std::string_view, 4> kRoleNames = {"object", "support", "wall",
-                                                               "unknown"};
+inline constexpr std::array<std::string_view, 5> kRoleNames = {"object", "support", "wall",
+                                                               "unknown", "container"};
 
 constexpr std::string_view role_name(Role role) {
   return kRoleNames[static_cast<std::size_t>(role)];

@@ -204,10 +204,7 @@ double share_behind(const CloudView& cloud, const Plane& plane, const PlaneMargi
 }
 
 bool bounds_the_view(const Plane& plane, const CloudView& cloud) {
-  constexpr PlaneMargin margin{0.02, 0.02};  // metres, and metres at a range of one metre
-  // The share of points behind the plane that reflections and flying pixels may cause.
-  constexpr double most_behind = 0.01;
-  return share_behind(cloud, plane, margin) <= most_behind;
+  return share_behind(cloud, plane, kOfWalls) <= kMostBehind;
 }
 
 double cosine_between(const Plane& a, const Plane& b) {

@@ -20,8 +20,9 @@ struct PlaneMargin {
   double operator()(const CloudView& cloud, const float* p) const {
     const double x = p[0] - cloud.viewpoint[0], y = p[1] - cloud.viewpoint[1];
     const double z = p[2] - cloud.viewpoint[2];
-    return std::max(distance, noise * (x * x + y * y + z * z));
+    return at(x * x + y * y + z * z);
   }
+  double at(double square_of_range) const { return std::max(distance, noise * square_of_range); }
 };
 
 /// The result of the search for a plane.
@@ -73,6 +74,11 @@ Cleared remove_plane(const CloudView& cloud, const std::vector<Index>& points, c
 /// The share of all points of a cloud, without holes, that are behind a plane and beyond the
 /// margin. In a large cloud, the share is computed from a sample of the points.
 double share_behind(const CloudView& cloud, const Plane& plane, const PlaneMargin& margin);
+
+/// Points nearer to a wall than this margin may belong to the wall itself.
+inline constexpr PlaneMargin kOfWalls{0.02, 0.02};
+/// The share of points behind a wall that reflections and flying pixels may cause.
+inline constexpr double kMostBehind = 0.01;
 
 /// True if nearly all points of a cloud are on the viewpoint's side of a plane.
 bool bounds_the_view(const Plane& plane, const CloudView& cloud);
