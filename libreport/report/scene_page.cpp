@@ -189,7 +189,6 @@ SceneMeta scene_meta(const ScenePage& page) {
   meta.removed = s.tree.removed;
   meta.flat = segment::kLeastShareOnSurface;
   if (s.tree.method != Method::surface) return meta;
-  meta.min_seam = s.tree.first_cut.min_seam;
   meta.objects = s.tree.first_cut.objects;
   return meta;
 }

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "libsegment/src/objects/stages.hpp"
-#include "libsegment/src/objects/weak_seams.hpp"
 #include "libsegment/src/scene/options.hpp"
 #include "libsegment/src/supports/containers.hpp"
 #include "libsegment/src/supports/stages.hpp"
@@ -54,10 +53,6 @@ Components components_of(const SceneTree& scene, const VoxelGrid& grid, const Su
   if (scene.method == Method::paper) return {scene.merge_tree.components(options.value)};
   std::vector<Index> component_of = scene.merge_tree.basins(options.value, options.min_part);
   if (scene.method == Method::supervoxels) return {std::move(component_of)};
-  if (options.min_seam > 0)
-    component_of = join_over_weak_seams(component_of, scene.merge_tree.births, surface.pairs,
-                                        adjacent_radius(scene.voxel),
-                                        options.min_seam * options.value, context);
   if (!options.objects) return {std::move(component_of)};
   Components objects{
       join_parts(grid, surface, scene.voxel, component_of, options.min_size, context)};

@@ -243,13 +243,13 @@ async function cutOfAScene(t, browser) {
     assert.deepEqual(await countsInLegend(), points);
     assert.match(
       await page.textContent(".cut .note"),
-      /the program's answer: at 0\.05 it joins basins over weak seams \(--min-seam 2\) and parts of one/,
+      /the program's answer: at 0\.05 it joins parts of one object/,
     );
     const rows = page.locator(".legend button.row");
     const says = await rows.locator(".says").allTextContents();
-    assert.deepEqual(says.slice(0, 5), ["on support 1", "on support 1", "unknown", "on 1", "on support 1"]);
+    assert.deepEqual(says.slice(0, 5), ["on support 1", "on support 1", "container", "on 1", "on support 1"]);
     assert.equal(await rows.nth(0).getAttribute("title"), "object on support 1, touches no other");
-    assert.equal(await rows.nth(2).getAttribute("title"), "unknown, confidence 3");
+    assert.equal(await rows.nth(2).getAttribute("title"), "container, confidence 3");
     assert.equal(await rows.nth(3).getAttribute("title"), "object on 1, confidence 4.5");
     assert.match(await page.textContent(".finding span"), /Besides: 1 support and 1 wall\.$/);
     await rows.nth(3).hover();
@@ -307,7 +307,7 @@ async function cutOfAScene(t, browser) {
       );
       assert.match(
         await page.textContent(".cut .note"),
-        /^Not the program's answer: .* persistence alone, as with --min-seam 0 --parts\./,
+        /^Not the program's answer: .* persistence alone, as with --parts\./,
       );
       assert.equal(await page.locator(".legend .says").count(), 0);
       assert.deepEqual(
@@ -318,7 +318,7 @@ async function cutOfAScene(t, browser) {
     const json = JSON.parse((await downloaded(page, "JSON")).toString());
     assert.equal(
       json.command,
-      "ph-segment desk.pcd --min-persistence 0.5 --min-seam 0 --parts --labels labels.npy",
+      "ph-segment desk.pcd --min-persistence 0.5 --parts --labels labels.npy",
     );
   });
 

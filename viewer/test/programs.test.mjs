@@ -260,7 +260,7 @@ test("reports of the programs", { timeout: 300_000 }, async (t) => {
       );
       const counts = new Set();
       for (const cut of [0, 0.02, 0.1, 0.5]) {
-        run(segment, input, "--cut", String(cut), "--min-seam", "0", "--parts", "--json", "cut.json");
+        run(segment, input, "--cut", String(cut), "--parts", "--json", "cut.json");
         counts.add(await countAt(page, cut));
         assert.deepEqual(await legend(page), sizes("cut.json"), `at ${cut}`);
       }

@@ -170,7 +170,6 @@ std::optional<std::string> parse_arguments(int argc, const char* const* argv, Ar
   }
   a.options.min_part = a.cut.min_part;
   a.options.min_size = a.cut.min_size;
-  a.options.min_seam = a.cut.min_seam;
   a.options.objects = a.cut.objects.value_or(a.options.objects);
   require_consistent(a);
   if (!a.is_stream() && !a.inputs.empty()) a.input = a.inputs.front();

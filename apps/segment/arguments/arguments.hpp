@@ -38,13 +38,11 @@ struct CutArguments {
   std::optional<double> value;
   std::optional<Index> min_part, min_size;
   std::optional<bool> objects;
-  std::optional<double> min_seam;
 
   /// The options of a cut. Where no value is given, the value of the tree is used.
   CutOptions over(const CutOptions& tree) const {
     return {value.value_or(tree.value), min_part.value_or(tree.min_part),
-            min_size.value_or(tree.min_size), objects.value_or(tree.objects),
-            min_seam.value_or(tree.min_seam)};
+            min_size.value_or(tree.min_size), objects.value_or(tree.objects)};
   }
 };
 

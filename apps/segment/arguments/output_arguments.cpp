@@ -80,9 +80,9 @@ void take_plots(Arguments& a, const app::PlotArguments& plots, const Known& know
 
 std::vector<std::string> scene_options(const app::Options& options) {
   std::vector<std::string_view> other{
-      "signatures",  "explain",      "plot-kind", "plot-view", "title",           "size",
-      "axis",        "cut",          "objects",   "parts",     "min-persistence", "min-seam",
-      "frames-from", "stable-labels"};
+      "signatures",   "explain", "plot-kind", "plot-view", "title",           "size",
+      "axis",         "cut",     "objects",   "parts",     "min-persistence", "frames-from",
+      "stable-labels"};
   for (const OutputOption& of : output_options()) other.push_back(of.option.substr(2));
   return app::given_options(options, other);
 }

@@ -177,12 +177,6 @@ void add_cut_options(app::Options& options, CutArguments& cut, const Known& know
       fmt::format("fewest voxels of a segment (default: {}; supervoxels: {})", d.min_size,
                   supervoxels.min_size),
       [&cut](const std::string& v) { cut.min_size = app::parse_integer("--min-size", v, 1); });
-  options.value(
-      {"--min-seam", kOfSurface}, "TIMES",
-      fmt::format("surface: parts join over a seam whose lower quartile is less than so many "
-                  "times --min-persistence; 0: its lowest place alone counts (default: {})",
-                  d.min_seam),
-      [&cut](const std::string& v) { cut.min_seam = at_least_zero("--min-seam", v); });
   CLI::Option* objects = options.flag(
       {"--objects", kOfSurface},
       "surface: join the visible parts of an object, over a rim or behind what hides its middle "

@@ -13,7 +13,7 @@ void require_input(std::span<const app::GivenOption> given, Situation input) {
                         : input == kDepthImage
                             ? "a depth image"
                             : "a stored tree, which keeps the options it was made with; --cut, "
-                              "--min-part, --min-size, --min-seam, --objects and --parts cut it "
+                              "--min-part, --min-size, --objects and --parts cut it "
                               "anew, --labels writes the labels of its points");
 }
 

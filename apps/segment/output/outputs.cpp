@@ -120,8 +120,7 @@ report::ScenePage Outputs::report_page(const Cloud* cloud, const Segmentation& s
   if (!a.input.empty()) command.push_back(info.input);
   command.insert(command.end(), a.scene_options.begin(), a.scene_options.end());
   command.insert(command.end(), {"--cut", "{cut}"});
-  if (s.tree.method == Method::surface)
-    command.insert(command.end(), {"--min-seam", "0", "--parts"});
+  if (s.tree.method == Method::surface) command.push_back("--parts");
   command.insert(command.end(), {"--labels", "labels.npy"});
   page.numbers = info.numbers;
   page.provenance.command = a.command;

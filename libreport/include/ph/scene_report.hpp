@@ -26,7 +26,7 @@ struct ScenePage {
 /// never reads), the segments and surfaces with their properties, the merge tree contracted to what
 /// cuts can separate, and the bars of positive length. At the cut of the segmentation, the page
 /// shows exactly this segmentation; any other cut gives the segments and surfaces of `ph-segment
-/// --cut` with `--min-seam 0 --parts`.
+/// --cut` with `--parts`.
 /// @throws Error (not_built_in) if this build has no page; Error (resource, cancelled); errors of
 ///     `sink`.
 void write_page(const Sink& sink, const ScenePage& page, const RunContext& context);

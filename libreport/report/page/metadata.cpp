@@ -67,7 +67,6 @@ std::string scene(const SceneMeta& meta) {
                  {"surfaces", json::array(meta.surface_roles, surface)},
                  {"removed", integer(meta.removed)},
                  {"flat", number(meta.flat)},
-                 {"min_seam", number(meta.min_seam)},
                  {"objects", meta.objects ? "true" : "false"}});
 }
 

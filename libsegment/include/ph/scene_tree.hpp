@@ -56,12 +56,11 @@ enum class Role {
   object = 0,
   support = 1,  ///< a plane that objects stand on: a table, a board, the floor
   wall = 2,  ///< a plane that hides everything behind it: a wall, the back or the side of a cabinet
-  unknown = 3,   ///< no longer used; earlier versions gave it to what the view cuts off
-  container = 4  ///< a segment with objects in it: a bin, a tray with a rim, a bowl
+  container = 3  ///< a segment with at least three objects in it, such as a bin
 };
 /// The names of the roles, by number.
-inline constexpr std::array<std::string_view, 5> kRoleNames = {"object", "support", "wall",
-                                                               "unknown", "container"};
+inline constexpr std::array<std::string_view, 4> kRoleNames = {"object", "support", "wall",
+                                                               "container"};
 
 constexpr std::string_view role_name(Role role) {
   return kRoleNames[static_cast<std::size_t>(role)];
@@ -124,7 +123,7 @@ struct Segment {
   /// projections of the points onto the plane. Without a plane, the axes are the principal axes,
   /// longest first.
   OrientedBox oriented_box;
-  Role role = Role::unknown;          ///< object or unknown
+  Role role = Role::object;           ///< object or container
   StandsOn on;                        ///< its support, as far as this is visible
   std::vector<Neighbour> neighbours;  ///< all segments that it touches, first contact first
   friend bool operator==(const Segment&, const Segment&) = default;
@@ -140,9 +139,6 @@ struct CutOptions {
   Index min_part = 200;
   Index min_size = 32;  ///< fewest voxels of a segment, >= 1
   bool objects = true;  ///< surface: join the visible parts of an object
-  /// Surface: the least strength of a seam between parts, in multiples of `value`, >= 0. At 0, only
-  /// persistence counts, that is, the lowest place of a seam.
-  double min_seam = 2;
   friend bool operator==(const CutOptions&, const CutOptions&) = default;
 };
 

@@ -68,8 +68,6 @@ struct SegmentOptions {
   bool objects = true;  ///< surface: join the visible parts of an object; false: keep them apart
   /// The fewest voxels of a part, >= 1. A smaller part joins a neighbouring part.
   std::optional<Index> min_part = {};
-  /// Surface: least strength of a seam, in multiples of min_persistence, >= 0; see CutOptions.
-  std::optional<double> min_seam = {};
   /// Supervoxels: the largest distance of the surface from a seed, metres, at least one voxel.
   double spacing = 0.03;
 
@@ -96,7 +94,7 @@ struct SegmentOptions {
       return {part_persistence(), min_part.value_or(8), min_size.value_or(1), false};
     const CutOptions d;
     return {method == Method::paper ? distance : part_persistence(), min_part.value_or(d.min_part),
-            min_size.value_or(d.min_size), objects, min_seam.value_or(d.min_seam)};
+            min_size.value_or(d.min_size), objects};
   }
 };
 

@@ -65,8 +65,6 @@ void validate(const CloudView& cloud, const SegmentOptions& o) {
   require(cut.value >= 0, Setting::min_persistence, cut.value, "at least 0");
   require(cut.min_part >= 1, Setting::min_part, static_cast<double>(cut.min_part), "at least 1");
   require(cut.min_size >= 1, Setting::min_size, static_cast<double>(cut.min_size), "at least 1");
-  require(std::isfinite(cut.min_seam) && cut.min_seam >= 0, Setting::min_seam, cut.min_seam,
-          "a finite number of at least 0");
   require(std::isfinite(margin) && margin > 0, Setting::plane_distance, margin, kLength);
   require_finite(o.viewpoint.value_or(cloud.viewpoint), Setting::viewpoint);
   if (o.plane_guess) {
@@ -166,8 +164,6 @@ void validate(const SceneTree& scene, const CutOptions& o) {
           fmt::format("at most {}, the distance up to which the tree was made", scene.distance));
   require(o.min_part >= 1, Setting::min_part, static_cast<double>(o.min_part), "at least 1");
   require(o.min_size >= 1, Setting::min_size, static_cast<double>(o.min_size), "at least 1");
-  require(std::isfinite(o.min_seam) && o.min_seam >= 0, Setting::min_seam, o.min_seam,
-          "a finite number of at least 0");
 }
 
 }  // namespace ph::segment

@@ -66,7 +66,6 @@ std::vector<double> lower_ends(const SceneCut& cut, const std::vector<double>& h
 
 void find_what_it_stands_on(const SceneTree& scene, std::span<const VoxelPair> pairs,
                             SceneCut& cut) {
-  for (Segment& segment : cut.segments) segment.role = Role::object;
   if (scene.surfaces.empty()) return;
   constexpr Index fewest = 10;  // the number of points, or of pairs of voxels
   for (Index s = scene.removed; s-- > 0;) {

@@ -66,7 +66,6 @@ std::string tree_bytes(const SceneTree& scene) {
   integer(scene.first_cut.min_part);
   integer(scene.first_cut.min_size);
   integer(scene.first_cut.objects);
-  number(scene.first_cut.min_seam);
   integer(std::ssize(scene.surfaces));
   integer(scene.removed);
   integer(std::ssize(scene.noise));

@@ -82,11 +82,19 @@ class TreeReader {
       fail(what, fmt::format("length {}", length), "length 1");
   }
 
+  void require_version() {
+    at_ = cursor_.offset();
+    const auto version = cursor_.read<std::int64_t>("version");
+    if (version != kTreeVersion)
+      input_.fail_at_byte(at_,
+                          {"version", fmt::format("{}", version), fmt::format("{}", kTreeVersion),
+                           "another version of libph wrote this tree; segment the cloud again"});
+  }
   void read_header() {
     constexpr std::int64_t most_steps = std::numeric_limits<int>::max();
     constexpr std::int64_t most = std::numeric_limits<std::int64_t>::max();
     constexpr std::int64_t most_noise = 64;
-    integer("version", kTreeVersion, kTreeVersion);
+    require_version();
     scene_.method = static_cast<Method>(integer("method", 0, 2));
     scene_.width = integer("width", 0, kMost);
     scene_.height = integer("height", scene_.width > 0 ? 1 : 0, kMost);
@@ -114,7 +122,6 @@ class TreeReader {
     cut.min_part = integer("fewest voxels of a part", 1, most);
     cut.min_size = integer("fewest voxels of a segment", 1, most);
     cut.objects = integer("whether parts are joined", 0, 1) == 1;
-    cut.min_seam = number("strength of a seam", 0);
     surfaces_ = integer("number of surfaces", has_plane ? 1 : 0,
                         has_plane ? static_cast<std::int64_t>(kMostSurfaces) : 0);
     scene_.removed = integer("number of removed surfaces", has_plane ? 1 : 0, surfaces_);

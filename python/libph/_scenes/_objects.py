@@ -43,8 +43,7 @@ class Segment(NamedTuple):
         The labels of the objects that it touches with the values at which they meet, in the order
         of these values.
     role : str
-        "object" or "unknown". It is "unknown" if the scene has no support, or if the border of the
-        image cuts the object off and nothing is visible on which it stands.
+        "object" or "container". A container, such as a bin, has at least three other objects in it.
     on : tuple of (str, int) or None
         What it stands on: ("surface", i), where i is an index into `Segmentation.surfaces`, or
         ("object", label). None if this is not visible.

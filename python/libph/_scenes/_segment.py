@@ -33,7 +33,6 @@ _SPACING, _DISTANCE, _STEPS, _NOISE = 0.03, 0.025, 10, 0.005
 def segment(cloud: Any, *, method: str | None = None, supervoxels: float | None = None,
             voxel: float | None = None, min_persistence: float | None = None,
             min_part: int | None = None, min_size: int | None = None,
-            min_seam: float | None = None,
             objects: bool | None = None, max_range: float = 2.0, crop: ArrayLike | None = None,
             plane: bool = True, plane_distance: float | None = None,
             plane_noise: float | None = None, previous: Segmentation | None = None,
@@ -69,9 +68,6 @@ def segment(cloud: Any, *, method: str | None = None, supervoxels: float | None 
         "supervoxels" 8. Not for "paper".
     min_size : int, optional
         The fewest voxels of an object. Default: 32; for "supervoxels" 1.
-    min_seam : float, optional
-        Parts join over a seam if its lower quartile is less than this many times `min_persistence`.
-        0: only the lowest place of a seam counts. Default: 2. Only for "surface".
     objects : bool, optional
         If True, the visible parts of one object are joined. Default: True. Only for "surface".
     max_range : float
@@ -179,7 +175,7 @@ def _options_of(o: dict[str, Any]) -> _core.SegmentOptions:
     idle += [(name, method != "paper", "method 'surface' or 'supervoxels'")
              for name in ("min_persistence", "min_part", "plane_noise")]
     idle += [(name, method == "paper", "method 'paper'") for name in ("distance", "steps")]
-    idle += [(name, method == "surface", "method 'surface'") for name in ("objects", "min_seam")]
+    idle += [("objects", method == "surface", "method 'surface'")]
     for name, works, expected in idle:
         if o[name] is not None and not works:
             raise UsageError(f"{name}: does nothing here, expected {expected}")
@@ -195,7 +191,6 @@ def _options_of(o: dict[str, Any]) -> _core.SegmentOptions:
         min_persistence=_if_given(_at_least_zero, "min_persistence", o),
         objects=_if_given(_options.flag, "objects", o, True),
         min_part=_if_given(_at_least_one, "min_part", o),
-        min_seam=_if_given(_at_least_zero, "min_seam", o),
         spacing=_if_given(_options.positive, "supervoxels", o, _SPACING),
         distance=_if_given(_length, "distance", o, _DISTANCE),
         steps=_if_given(_steps, "steps", o, _STEPS))

@@ -156,7 +156,7 @@ class Segmentation:
 
     def cut(self, value: float | None = None, *, n: int | None = None, min_part: int | None = None,
             min_size: int | None = None, objects: bool | None = None,
-            min_seam: float | None = None, **run: Unpack[RunOptions]) -> Segmentation:
+            **run: Unpack[RunOptions]) -> Segmentation:
         """A coarser or finer segmentation of the same tree, in milliseconds.
 
         Parameters
@@ -166,8 +166,8 @@ class Segmentation:
             join, at most the distance of the tree. Default: unchanged.
         n : int, optional
             Instead of `value`: the number of objects to find. If the cut already has this many
-            objects, it does not change. Otherwise `min_seam` is set to 0, unless it is given.
-        min_part, min_size, objects, min_seam
+            objects, it does not change.
+        min_part, min_size, objects
             As in `segment`. Default: unchanged.
         **run
             `threads`, `memory_limit`, `progress`, `timeout`, `stop`; see `libph`.
@@ -193,10 +193,6 @@ class Segmentation:
             if method != "surface":
                 raise UsageError(f"objects: does nothing for method '{method}'")
             objects = _options.flag("objects", objects)
-        if min_seam is not None:
-            if method != "surface":
-                raise UsageError(f"min_seam: does nothing for method '{method}'")
-            min_seam = _options.real("min_seam", min_seam, "a number, at least 0", 0)
         if value is not None:
             value = _options.real("value", value, "a number, at least 0", 0)
             if n is not None:
@@ -206,15 +202,13 @@ class Segmentation:
                                       "distance up to which the tree was made")
 
         def found_at(value: float | None) -> _core.Segmentation:
-            return _run.run(self._found.cut, value, min_part, min_size, objects, min_seam,
+            return _run.run(self._found.cut, value, min_part, min_size, objects,
                             options=dict(run))
 
         found = found_at(value)
         if n is not None:
             n = _options.whole("n", n, 0)
             if len(found.segments) != n:
-                if method == "surface" and min_seam is None:
-                    min_seam = 0.0  # the number of objects changes only at the levels of the tree
                 found = found_at(self._value_of(n, min_part, min_size, found_at))
             if len(found.segments) != n:
                 raise _no_cut(n, [str(len(found.segments))])

@@ -21,7 +21,7 @@ class Tracked(NamedTuple):
     number : int
         The number of the object, which stays the same from frame to frame.
     role : str
-        "object", "unknown", "support" or "wall". A wall that one frame shows as an object keeps
+        "object", "container", "support" or "wall". A wall that one frame shows as an object keeps
         the role "wall".
     on : tuple of (str, int) or None
         What it stands on, in the form of `Segment.on` of that frame.

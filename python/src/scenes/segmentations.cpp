@@ -79,12 +79,10 @@ py::object read_scene(const std::string& path, const RunOptions& options) {
 /// Cuts the tree again. Values that are not given do not change.
 SegmentedScene cut(const SegmentedScene& scene, std::optional<double> value,
                    std::optional<Index> min_part, std::optional<Index> min_size,
-                   std::optional<bool> objects, std::optional<double> min_seam,
-                   const RunOptions& options) {
+                   std::optional<bool> objects, const RunOptions& options) {
   const segment::CutOptions& old = scene.result.tree.first_cut;
   const segment::CutOptions asked{value.value_or(old.value), min_part.value_or(old.min_part),
-                                  min_size.value_or(old.min_size), objects.value_or(old.objects),
-                                  min_seam.value_or(old.min_seam)};
+                                  min_size.value_or(old.min_size), objects.value_or(old.objects)};
   SegmentedScene other{scene.input};
   run_task(options, scene.result.tree.points.size() < kFewPoints,
            [&](const SharedContext& context) {
@@ -177,7 +175,6 @@ py::dict facts(const SegmentedScene& scene) {
   meta["min_size"] = s.tree.first_cut.min_size;
   if (s.tree.method == segment::Method::surface) {
     meta["objects"] = s.tree.first_cut.objects;
-    meta["min_seam"] = s.tree.first_cut.min_seam;
   }
   meta["checked"] = s.checked;
   return meta;
@@ -277,8 +274,7 @@ void bind_segmentations(py::module_& m) {
                        const std::optional<std::array<double, 5>>& plane_guess,
                        std::optional<Vec3> viewpoint, bool check,
                        std::optional<double> min_persistence, bool objects,
-                       std::optional<Index> min_part, std::optional<double> min_seam,
-                       double spacing, double distance, int steps) {
+                       std::optional<Index> min_part, double spacing, double distance, int steps) {
              SegmentOptions o;
              const auto named = std::ranges::find(segment::kMethodNames, method);
              if (named == segment::kMethodNames.end())
@@ -300,7 +296,6 @@ void bind_segmentations(py::module_& m) {
              o.min_persistence = min_persistence;
              o.objects = objects;
              o.min_part = min_part;
-             o.min_seam = min_seam;
              o.spacing = spacing;
              o.distance = distance;
              o.steps = steps;
@@ -309,8 +304,8 @@ void bind_segmentations(py::module_& m) {
            py::kw_only(), py::arg("method"), py::arg("voxel"), py::arg("min_size"),
            py::arg("max_range"), py::arg("crop"), py::arg("plane"), py::arg("plane_distance"),
            py::arg("plane_noise"), py::arg("plane_guess"), py::arg("viewpoint"), py::arg("check"),
-           py::arg("min_persistence"), py::arg("objects"), py::arg("min_part"), py::arg("min_seam"),
-           py::arg("spacing"), py::arg("distance"), py::arg("steps"));
+           py::arg("min_persistence"), py::arg("objects"), py::arg("min_part"), py::arg("spacing"),
+           py::arg("distance"), py::arg("steps"));
   py::class_<SegmentedScene>(m, "Segmentation")
       .def_property_readonly("has_cloud",
                              [](const SegmentedScene& s) { return s.cloud() != nullptr; })
@@ -343,7 +338,7 @@ void bind_segmentations(py::module_& m) {
                              [](const SegmentedScene& s) { return s.result.tree.merge_tree; })
       .def_property_readonly("barcode", &barcode)
       .def("cut", &cut, py::arg("value"), py::arg("min_part"), py::arg("min_size"),
-           py::arg("objects"), py::arg("min_seam"), py::arg("run"))
+           py::arg("objects"), py::arg("run"))
       .def("signature", &signature, py::arg("labels"), py::arg("run"))
       .def("first_meeting", &first_meeting, py::arg("a"), py::arg("b"))
       .def("save", &save, py::arg("path"), py::arg("format"), py::arg("run"))

@@ -50,7 +50,6 @@ def rows(Row, name="x"):
         "--cut": row("--cut", "0.011"),
         "--min-part": row("--min-part", "600"),
         "--min-size": row("--min-size", "500"),
-        "--min-seam": row("--min-seam", "150"),
         "--objects": row("--objects", default=["--parts"]),
         "--parts": row("--parts"),
         "--output": row("-o", f"o-{name}.pcd"),

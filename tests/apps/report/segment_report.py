@@ -45,6 +45,22 @@ def table_scene(width=64, height=48):
     return header.encode() + b"".join(records)
 
 
+def hidden_scene(width=320, height=240):
+    """A binary, organised PCD file: a table, a box, and a post in front that hides the box's
+    middle."""
+    records = []
+    for v in range(height):
+        for u in range(width):
+            is_post, is_box = 150 <= u < 166 and 60 <= v < 200, 100 <= u < 220 and 90 <= v < 160
+            z = 0.8 if is_post else 0.9 if is_box else 1.0
+            x, y = (u - width / 2) * 0.002 * z, (v - height / 2) * 0.002 * z
+            records.append(struct.pack("<fff", x, y, z))
+    header = ("VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\n"
+              f"WIDTH {width}\nHEIGHT {height}\nVIEWPOINT 0 0 0 1 0 0 0\n"
+              f"POINTS {width * height}\nDATA binary\n")
+    return header.encode() + b"".join(records)
+
+
 class Reports(ProgramTest):
     def setUp(self):
         super().setUp()
@@ -117,25 +133,24 @@ class Reports(ProgramTest):
         self.assertEqual(counts, {2, 3})
         scene = report.meta["scene"]
         self.assertEqual([s["role"] for s in scene["surfaces"]], ["support", "wall"])
-        self.assertEqual((scene["removed"], scene["min_seam"], scene["objects"]), (1, 2, True))
+        self.assertEqual((scene["removed"], scene["objects"]), (1, True))
         self.assertEqual([(s.get("on_surface"), s.get("on_segment")) for s in scene["segments"]],
                          [(1, None), (1, None), (None, 1)])
         self.assertEqual(set(report["tree/leaf_surface"]), {0, 2})
         self.assertEqual(set(report["points/surface"]), {0, 1})
 
     def test_an_answer_that_no_cut_of_the_tree_gives(self):
-        self.write("room.pcd", room())
-        options = ["--max-range", "3", "--min-part", "40", "--min-persistence", "0.5"]
-        report = self.expect_answer("room.pcd", *options, "--min-seam", "80")
+        self.write("hidden.pcd", hidden_scene())
+        report = self.expect_answer("hidden.pcd")
         tree = report.meta["tree"]
-        labels, _ = report.answer(240 * 180)
+        labels, _ = report.answer(320 * 240)
         self.assertEqual(max(labels), 2)
-        self.assertEqual(max(report.point_labels(tree["cut"], 240 * 180)), 3)
-        command = [w.replace("{cut}", "0.5") for w in tree["command"][1:]]
-        self.assertEqual(command[-6:-2], ["0.5", "--min-seam", "0", "--parts"])
+        self.assertEqual(max(report.point_labels(tree["cut"], 320 * 240)), 3)
+        command = [w.replace("{cut}", "1") for w in tree["command"][1:]]
+        self.assertEqual(command[-4:-2], ["1", "--parts"])
         self.expect(0, *command[:-1], "l.csv", "--quiet")
         self.assertEqual([int(line) for line in self.read("l.csv").split()],
-                         report.point_labels(tree["cut"], 240 * 180))
+                         report.point_labels(tree["cut"], 320 * 240))
 
     def test_a_stream_has_the_numbers_and_colours_of_its_objects(self):
         self.write("a.pcd", room(seed=1))

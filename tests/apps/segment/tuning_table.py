@@ -14,7 +14,7 @@ IN_JSON = {"--plane-distance": "plane_distance", "--max-range": "max_range",
            "--plane-noise": "plane_noise", "--distance": "distance", "--steps": "steps",
            "--supervoxels": "spacing"}
 IN_CUT = {"--min-persistence": "value", "--cut": "value", "--min-part": "min_part",
-          "--min-size": "min_size", "--min-seam": "min_seam"}
+          "--min-size": "min_size"}
 
 
 def rows():

@@ -79,7 +79,7 @@ struct Frame : Segmentation {
   }
 };
 
-constexpr Standing kOnTable{Role::object, {1, 0}}, kNowhere{Role::unknown, {}};
+constexpr Standing kOnTable{Role::object, {1, 0}}, kNowhere{Role::container, {}};
 const std::vector<std::uint8_t> kNoWall(8);
 
 TEST(LabelTracker, ARoleAndASupportChangeAfterThreeFramesThatSaySo) {
@@ -115,9 +115,9 @@ TEST(LabelTracker, AWallThatIsASegmentForAFrameIsStillAWall) {
   EXPECT_EQ(role_of_second(), Role::wall);
   EXPECT_EQ(tracker.update(wall.tree, wall.cut), Labels{1});
   for (int i = 0; i < 2; ++i) EXPECT_EQ(role_of_second(), Role::wall);
-  EXPECT_EQ(role_of_second(), Role::unknown) << "the third frame in a row";
+  EXPECT_EQ(role_of_second(), Role::container) << "the third frame in a row";
   for (int i = 0; i < 2; ++i) EXPECT_EQ(tracker.update(wall.tree, wall.cut), Labels{1});
-  EXPECT_EQ(role_of_second(), Role::unknown);
+  EXPECT_EQ(role_of_second(), Role::container);
 }
 
 TEST(LabelTracker, WhatAnObjectStandsOnIsKnownByItsNumber) {

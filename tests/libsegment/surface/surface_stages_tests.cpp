@@ -11,7 +11,6 @@
 #include <numbers>
 #include <random>
 
-#include "libsegment/src/objects/weak_seams.hpp"
 #include "libsegment/src/surface/concavity.hpp"
 #include "libsegment/src/voxels/voxel_pairs.hpp"
 #include "ph/detail/complex/filtered_graph.hpp"
@@ -237,26 +236,6 @@ TEST(Concavity, IsLargeWhereASeamGoesAroundACorner) {
     ++places;
   }
   EXPECT_EQ(places, 2);
-}
-
-TEST(WeakSeams, AreOnARidgeAndNotInAValley) {
-  for (const double angle : {-0.6, 0.0, 0.6}) {
-    const Points places = valley(angle, 0.005);
-    const std::vector<VoxelPair> pairs = pairs_within(places, 0.015);
-    const Points normals = surface_normals(places, pairs, 0.012, {0, 0, 10});
-    const std::vector<double> hollow = concavity(places, normals, pairs);
-    std::vector<Index> side_of;
-    std::array<Index, 2> first = {-1, -1};
-    for (Index v = 0; v < places.rows(); ++v) {
-      Index& side = first[places(v, 1) < 0 ? 0 : 1];
-      if (side < 0) side = v;
-      side_of.push_back(side);
-    }
-    const std::vector<Index> basins = join_over_weak_seams(side_of, hollow, pairs, 0.009, 0.04);
-    EXPECT_EQ(std::ranges::count(basins, basins[0]),
-              angle <= 0 ? std::ssize(side_of) : std::ranges::count(side_of, side_of[0]))
-        << angle;
-  }
 }
 
 TEST(Concavity, FewNeighboursHaveNoNormalAndNoValue) {

@@ -41,8 +41,8 @@ BARCODES = {"csv": "csv", "json": "json", "pers": "pers", "dipha": "dipha", "npy
 SENSELESS = [
     *((option, "surface supervoxels") for option in ("--distance 0.1", "--steps 3")),
     *((option, "paper") for option in ("--min-part 3", "--min-persistence 1", "--plane-noise 0.1", "--cut 1e39")),
-    *((option, "paper supervoxels") for option in ("--min-seam 1", "--parts", "--objects")),
-    ("--min-seam inf", "surface"), ("--supervoxels 1e-35", "supervoxels"), ("--color none.png", "cloud"),
+    *((option, "paper supervoxels") for option in ("--parts", "--objects")),
+    ("--supervoxels 1e-35", "supervoxels"), ("--color none.png", "cloud"),
     ("--depth-scale 0.5", "cloud"),
     *((option, "") for option in (
         "--voxel 0", "--voxel nan", "--voxel 1e31", "--voxel 1e-31", "--min-size 0", "--max-range -1", "--cut -1",

@@ -125,7 +125,7 @@ def stored_tree(rng, np_rng, program, check, tree, source, names):
     again = json.loads(program.output("again.json"))
     expect("segments of a stored tree", again["segments"], [s | {"signature": None} for s in check.json["segments"]])
     asked = copy.copy(check.asked)
-    asked.cut = asked.min_size = asked.min_part = asked.min_seam = None
+    asked.cut = asked.min_size = asked.min_part = None
     scenes.other_cut(rng, asked, check.scene)
     program.must([["t.tree"], *cut_options(asked), ["--labels", "second.npy"]])
     if check.json["plane"]["found"] and asked.method == "surface":
@@ -141,8 +141,6 @@ def cut_options(asked):
     full.cut, full.min_size = float(full.value()), full.least_voxels()
     if full.method != "paper":
         full.min_part = full.least_part()
-    if full.method == "surface":
-        full.min_seam = 2.0 if full.min_seam is None else full.min_seam
     return full.cut_options() + ([["--objects"]] if full.method == "surface" and not full.parts else [])
 
 

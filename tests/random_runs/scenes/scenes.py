@@ -192,7 +192,6 @@ class Asked:
     cut: float = None
     min_part: int = None
     min_size: int = None
-    min_seam: float = None
     parts: bool = False
     spacing: float = 0.03
     allow_empty: bool = False
@@ -235,7 +234,7 @@ class Asked:
     def cut_options(self, name="--cut"):
         """The options that a stored tree accepts as well."""
         out = [[name, repr(self.cut)]] if self.cut is not None else []
-        for name in ("min_part", "min_size", "min_seam"):
+        for name in ("min_part", "min_size"):
             if getattr(self, name) is not None:
                 out += [["--" + name.replace("_", "-"), repr(getattr(self, name))]]
         return out + ([["--parts"]] if self.parts else [])
@@ -252,7 +251,6 @@ def other_cut(rng, asked, scene):
     if asked.method != "paper" and rng.random() < 0.7:
         asked.min_part = rng.choice([1, 1, 2, 5, 20])
     if asked.method == "surface":
-        asked.min_seam = rng.choice([None, 0.0, 0.0, 1.0, 4.0])
         asked.parts = rng.random() < 0.6
 
 

@@ -5,7 +5,7 @@ import { Chart } from "./chart";
 import { button, el, table, type Size } from "../common/dom";
 import { CutScale, kSteps, segmentCounts } from "../model/cuts";
 import { counted, exact, grouped, short } from "../common/number_format";
-import { kindOfSegment, listed } from "../model/words";
+import { kindOfSegment } from "../model/words";
 import { textWidth, type Pen } from "./pen";
 import type { Change, Session } from "../model/session";
 
@@ -157,20 +157,14 @@ export class CutChart extends Chart {
       ...(this.suggested === undefined || this.suggested === own ? [] : [to("widest gap", this.suggested)]),
     ];
   }
-  /// Names the steps of the program's answer that a cut of the tree does not include; empty if
-  /// there are none.
+  /// Names the step of the program's answer that a cut of the tree does not include; empty if there
+  /// is none.
   private note(): string {
     const { meta } = this.session.report;
-    const { min_seam = 0, objects = false } = meta.scene ?? {};
-    const rules = [
-      ...(min_seam > 0 ? [`basins over weak seams (--min-seam ${exact(min_seam)})`] : []),
-      ...(objects ? ["parts of one object"] : []),
-    ];
-    if (rules.length === 0) return "";
-    const options = [...(min_seam > 0 ? ["--min-seam 0"] : []), ...(objects ? ["--parts"] : [])].join(" ");
+    if (!meta.scene?.objects) return "";
     return this.session.isAnswer
-      ? `This is the program's answer: at ${exact(meta.tree!.cut)} it joins ${listed(rules)}. Other cuts, and the curve, go by persistence alone, as with ${options}.`
-      : `Not the program's answer: this cut goes by persistence alone, as with ${options}. “program's cut” goes back to it.`;
+      ? `This is the program's answer: at ${exact(meta.tree!.cut)} it joins parts of one object. Other cuts, and the curve, go by persistence alone, as with --parts.`
+      : "Not the program's answer: this cut goes by persistence alone, as with --parts. “program's cut” goes back to it.";
   }
   private show(): void {
     const { session } = this;

@@ -32,7 +32,7 @@ export interface SegmentMeta {
   colour: string; // "#rrggbb"
   persistence: number | null; // null: infinite
   // The last two are known only from earlier frames.
-  role: "object" | "unknown" | "support" | "wall";
+  role: "object" | "container" | "support" | "wall";
   on_surface?: number;
   on_segment?: number; // the number of the segment that it stands on
 }
@@ -43,7 +43,6 @@ export interface SceneMeta {
   surfaces: { role: "support" | "wall" }[]; // by number, from 1
   removed: number; // how many of these have no leaf on them
   flat: number; // least share of a surface's vertices on its plane
-  min_seam: number; // if above 0, the answer joins parts over weak seams
   objects: boolean; // true if the answer joins the parts of an object
 }
 

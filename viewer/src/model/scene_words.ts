@@ -18,7 +18,7 @@ export function standing(scene: SceneMeta, segment: SegmentMeta): string {
 }
 
 function roleOf({ role }: SegmentMeta): string {
-  return ["unknown", "support", "wall"].includes(role) ? role : "object";
+  return ["container", "support", "wall"].includes(role) ? role : "object";
 }
 
 /// "object on support 1, confidence 4.2"

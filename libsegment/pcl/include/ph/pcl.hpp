@@ -243,9 +243,6 @@ class PersistenceSegmentation : public ::pcl::PCLBase<PointT> {
   /// Methods surface and supervoxels: fewest voxels of a part.
   void setMinPartSize(Index voxels) { options_.min_part = voxels; }
   Index getMinPartSize() const { return options_.cut().min_part; }
-  /// Method surface: least strength of a seam, in multiples of the least persistence.
-  void setMinSeam(double times) { options_.min_seam = times; }
-  double getMinSeam() const { return options_.cut().min_seam; }
   /// Method surface: true if the visible parts of an object are joined.
   void setObjects(bool join) { options_.objects = join; }
   bool getObjects() const { return options_.objects; }

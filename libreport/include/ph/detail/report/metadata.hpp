@@ -48,7 +48,6 @@ struct SceneMeta {
   std::vector<std::string_view> surface_roles;  ///< role of each surface, by its number
   Index removed = 0;     ///< number of removed surfaces, on which no leaf of the tree lies
   double flat = 0;       ///< least share of vertices on its plane that a surface must have
-  double min_seam = 0;   ///< least strength of a seam; other cuts do not join over weak seams
   bool objects = false;  ///< true if the parts of an object are joined; other cuts join none
 };
 

@@ -15,8 +15,7 @@ inline std::string json_of(const CutOptions& o) {
   return json::object({{"value", json::number(o.value)},
                        {"min_part", json::integer(o.min_part)},
                        {"min_size", json::integer(o.min_size)},
-                       {"objects", json::boolean(o.objects)},
-                       {"min_seam", json::number(o.min_seam)}});
+                       {"objects", json::boolean(o.objects)}});
 }
 
 inline std::string json_of(const std::vector<SceneSurface>& surfaces) {
