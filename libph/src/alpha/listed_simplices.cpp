@@ -79,8 +79,8 @@ ExplicitComplex list_simplices(const AlphaCells& cells, const Enters& enters,
 namespace {
 
 /// Lists the cells of a Delta-complex with their boundaries. The sites of a cell ascend, but the
-/// input points of these sites need not. Chains use cells whose input points ascend; boundaries are
-/// therefore given for such cells.
+/// input points of these sites need not. Chains list the input points of each cell in ascending
+/// order; boundaries are therefore given for cells with their points in this order.
 class CellList {
  public:
   CellList(const AlphaCells& cells, const Enters& enters, SimplexList& vertices,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The library ph::alpha has the constructor of alpha complexes and the code that only this
+// The library ph::alpha contains the constructor of alpha complexes and the code that only this
 // constructor needs. No other library uses CGAL. The rest of the folder belongs to ph::core.
 #include <fmt/format.h>
 

@@ -111,7 +111,7 @@ void Cubical::prepare(const RunContext& context) const {
 
 const Cubical::Table& Cubical::make_table(const RunContext& context) const {
   std::unique_lock lock(lazy_->mutex, std::defer_lock);
-  // Another thread makes the table, but this thread can still be stopped.
+  // Another thread is making the table. This thread can still be stopped while it waits.
   while (!lock.try_lock()) {
     context.poll();
     std::this_thread::sleep_for(std::chrono::milliseconds(1));

@@ -46,8 +46,8 @@ void check_size(std::size_t cells) {
   }
 }
 
-// Tables have one row for each dimension. The limit prevents huge tables if a file has a wrong
-// number.
+// Tables have one row for each dimension. The limit prevents huge tables if a number in a file is
+// wrong.
 constexpr int kLargestDimension = 65535;
 
 [[noreturn]] void refuse(std::string_view what, const std::string& fault) {

@@ -15,7 +15,7 @@ namespace {
 
 using Coordinates = std::vector<Index>;
 constexpr Index kNotThere = -1;
-// This is the memory of both the matrix and the complex made from it.
+// This number includes the matrix and the complex that is made from it.
 constexpr std::size_t kBytesPerEntry = 40;
 
 /// The cubes of an image, as points of the doubled grid. The coordinate of a cube is odd along each
@@ -66,8 +66,8 @@ class Cubes {
   bool voxels_are_vertices() const {
     return options_.construction == CubicalOptions::Construction::vertices;
   }
-  /// Returns the value of the last voxel of cube x (V construction) or of its first voxel (T
-  /// construction). The recursion handles axis k and the axes after it.
+  /// Returns the value of the last voxel of cube x (V-construction) or of its first voxel
+  /// (T-construction). The recursion handles axis k and the axes after it.
   /// @param voxel the position of the voxel along the axes before k, as one row-major index.
   double extreme_value(const Coordinates& x, std::size_t k, Index voxel) const {
     if (k == x.size()) return voxel_value(voxel);

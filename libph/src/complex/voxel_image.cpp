@@ -54,8 +54,8 @@ class Envelope {
   }
 
  private:
-  /// The point where the parabola of q, which lies to the right of p, falls below the parabola of
-  /// p.
+  /// The point to the right of which the parabola of q is below the parabola of p. Precondition: q
+  /// > p.
   double crossing(std::size_t p, std::size_t q) const {
     const auto a = static_cast<double>(p), b = static_cast<double>(q);
     return ((heights_[q] + b * b) - (heights_[p] + a * a)) / (2 * (b - a));

@@ -18,7 +18,8 @@ namespace ph::cubical {
 
 namespace {
 
-// A voxel needs either a star and a node of a graph or two ranks. Each of these takes 4 bytes.
+// For each voxel, either a star and a node of a graph are stored, or two ranks. Each of these four
+// takes 4 bytes.
 constexpr double kBytesOfVoxel = 8;
 
 bool has_few_axes(const CubicalImage& grid) { return GridShape::count_axes(grid) <= 3; }

@@ -22,17 +22,17 @@ double bytes_per_bar(const Options& options) {
   return kBytesPerBar + (options.cells ? kBytesPerCells : 0);
 }
 
-// The number of bytes that every run takes. They are used by small containers, the allocator, and
-// the pages of the program's own code.
+// The number of bytes that every run needs for small containers, the allocator, and the pages of
+// the program's own code.
 constexpr double kAlways = 4 << 20;
-// These constants determine how many cells the engine lists in the larger of the parts that it
-// computes. The number is large enough to show how memory grows. It is small enough to take only
-// seconds and a fraction of the total time.
+// A forecast runs the engine on parts of the complex. These constants determine how many cells the
+// engine lists in the largest part. The number is large enough to show how memory grows, but small
+// enough to take only seconds and a fraction of the total time.
 constexpr double kPilotEdges = 40'000, kPilotCells = 60'000, kPilotShare = 0.125;
 constexpr double kMostPilotEdges = 4e6, kMostPilotCells = 250'000;
 // These constants are safety margins. Measurements show that memory grows in leaps. It also grows
-// faster from a part to the entire complex than from one part to the next, unless the complex
-// consists of many similar parts side by side.
+// faster from a part to the entire complex than from a small part to a larger one, unless the
+// complex consists of many similar parts side by side.
 constexpr double kMargin = 3, kPowerMargin = 0.35, kPowerMarginOfLocal = 0.1;
 
 double sum(std::span<const double> counts) {
@@ -108,9 +108,9 @@ double listed_of(const RipsGraph& part, const Options& options, const RunContext
       count_cliques(part, listed_rips_dim(options.engine, *options.max_dim), context).counts);
 }
 
-/// Orders the vertices so that any number of first vertices spans a part that is similar to the
+/// Orders the vertices so that the first k vertices, for any k, span a part that is similar to the
 /// entire graph. The order is random if most pairs of vertices are edges. Otherwise it is breadth
-/// first, starting from a vertex.
+/// first, starting from a random vertex.
 std::vector<std::uint32_t> order_of(const RipsGraph& graph, std::uint64_t seed) {
   std::vector<std::uint32_t> order(static_cast<std::size_t>(graph.size()));
   std::iota(order.begin(), order.end(), 0U);
@@ -164,7 +164,7 @@ MemoryForecast forecast_rips(const RipsGraph& graph, std::span<const double> cel
   const double edges = 16 * static_cast<double>(graph.edge_count());
   const double known = edges + structure(graph, options.engine);
   const double most = known + bytes_per_bar(options) * static_cast<double>(graph.size()) + kAlways;
-  // The link sweep stops once nothing more can happen, usually before its lists are full.
+  // The sweep of edge links stops once nothing more can happen, usually before its lists are full.
   const double least = options.engine == Engine::edge_links ? edges : known;
   if (graph.is_forest() || graph.size() < 2) return {least, most};
   const bool lists_edges_only = listed_rips_dim(options.engine, *options.max_dim) < 2;
@@ -196,7 +196,8 @@ MemoryForecast forecast_rips(const RipsGraph& graph, std::span<const double> cel
 }
 
 MemoryForecast forecast_edges(Index vertices, double edges, const Options& options) {
-  // The sample gives the number of edges, but not the memory that the engine needs for them.
+  // The sample gives the approximate number of edges, but does not show how much memory the engine
+  // needs for them.
   constexpr double fewer = 0.9, margin = 3;
   const double held = 16 * edges;
   const double known = held + structure(static_cast<std::size_t>(vertices),
@@ -226,7 +227,7 @@ MemoryForecast forecast_points(PointsView points, std::optional<double> threshol
     const Barcode barcode = persistence(Rips(std::move(sample), rips_options, own), options, own);
     return static_cast<double>(own.memory.peak());
   };
-  const double least = 2.5 * held;  // the tree has a copy of the points, and boxes
+  const double least = 2.5 * held;  // the tree holds a copy of the points, and boxes
   if (points.rows() == 0) return {held, held + kAlways};
   const Index large = std::min(kLarge, points.rows()), small = std::min(kSmall, points.rows());
   const double of_large = peak_of(large);
@@ -235,8 +236,8 @@ MemoryForecast forecast_points(PointsView points, std::optional<double> threshol
   if (small < large)
     power = std::log(of_large / of_small) /
             std::log(static_cast<double>(large) / static_cast<double>(small));
-  // Measurements show that memory contains, in addition to the data per point, pairs of nodes on
-  // opposite sides of holes while these pairs wait in the queue. The power is therefore raised.
+  // Measurements show that memory is needed not only for the data per point, but also for pairs of
+  // nodes on opposite sides of holes, which wait in the queue. The power is therefore raised.
   power = std::clamp(power, 1.0, 1.6) + kPowerMarginOfLocal;
   const double factor = static_cast<double>(points.rows()) / static_cast<double>(large);
   return {least, held + 2 * of_large * std::pow(factor, power) +
@@ -245,7 +246,7 @@ MemoryForecast forecast_points(PointsView points, std::optional<double> threshol
 
 MemoryForecast forecast_voxels(double stored, double voxels, double cells,
                                bool with_representatives) {
-  // These numbers of bytes were measured on noise, for critical cells with their columns and for
+  // These byte counts were measured on noise. They cover critical cells with their columns, and
   // bars. Representatives take more memory, because their chains are long.
   const double bytes_per_cell = with_representatives ? 90 : 20;
   constexpr double least_cells_per_voxel = 8;
@@ -261,8 +262,8 @@ MemoryForecast forecast_intervals(double stored, bool with_representatives) {
 }
 
 MemoryForecast forecast_cells(double stored, std::span<const double> cells) {
-  // The number of bytes per cell is either for a column with its entries in the table of pivots and
-  // in the list of columns to reduce, or for the pair of the cell. Fill-in is not counted.
+  // The bytes per cell, either for its column with entries in the table of pivots and in the list
+  // of columns to reduce, or for its pair. Fill-in is not counted.
   constexpr double bytes_per_column = 128;
   return {stored, stored + bytes_per_column * sum(cells) + kAlways};
 }

@@ -15,21 +15,21 @@ struct MemoryForecast {
 /// The highest dimension in which an engine lists simplices of a Rips complex.
 int listed_rips_dim(Engine engine, int max_dim);
 
-/// Forecasts the memory that the homology of a Rips complex takes, including the edges. The engine
-/// computes three small parts of the complex. The memory that these parts take in addition to their
-/// edges and to bit rows or adjacency lists is extrapolated.
+/// Forecasts the memory that computing the homology of a Rips complex takes, including the edges.
+/// The engine is run on three small parts of the complex. The memory that it needs for them, apart
+/// from edges and bit rows or adjacency lists, is extrapolated to the entire complex.
 /// @param cells the number of cells of each dimension, up to listed_rips_dim. @param options must
 ///        name an engine and a dimension, without a collapse.
 MemoryForecast forecast_rips(const RipsGraph& graph, std::span<const double> cells,
                              const Options& options, const RunContext& context);
 
-/// Does the same as `forecast_rips` if there are too many edges to make them. The forecast uses the
-/// approximate number of edges.
+/// Forecasts the same memory as `forecast_rips` if there are too many edges to list them. The
+/// forecast uses the approximate number of edges.
 MemoryForecast forecast_edges(Index vertices, double edges, const Options& options);
 
-/// Does the same as `forecast_rips` for an engine that takes only points. The engine computes two
-/// samples of the points.
-/// @param points must be enough points for the engine. @param options must name an engine.
+/// Forecasts the memory of an engine that needs only the points. The engine is run on two samples
+/// of the points, and the memory that it needs for them is extrapolated.
+/// @param points must be enough for the engine. @param options must name an engine.
 MemoryForecast forecast_points(PointsView points, std::optional<double> threshold,
                                const Options& options, const RunContext& context);
 

@@ -40,7 +40,8 @@ MergeTree tree_of(const F& f, const RunContext& context) {
                                tree.births[younger]});
         sizes[elder] += sizes[younger];  // mutant: merge-sizes
       });
-  // Translates vertices to their numbers in the input, which include the vertices that never enter.
+  // Translates vertices to their numbers in the input, where vertices that never enter are numbered
+  // as well.
   if constexpr (requires { f.vertex_number(graph.vertices[0]); }) {  // mutant: merge-tree-numbers
     std::vector<Index> number;
     number.reserve(graph.vertices.size());

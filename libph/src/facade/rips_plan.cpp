@@ -16,11 +16,11 @@ namespace {
 // filtration, not on the size of its cells.
 using Sparse = RipsFiltration<RipsLayout::sparse, 1>;
 
-// This was measured for H2 to H7. The more edges are dominated, the more time a collapse saves, up
-// to a factor of a few hundred. If two thirds of the edges are dominated, a collapse still saves
-// half of the time and of the memory. If fewer edges are dominated, nearly all edges are kept, and
-// the collapse is a waste of time. This happens on spheres of higher dimension and for distances
-// that are not a metric.
+// A collapse is worthwhile if at least this share of the edges is dominated, as measured for H2 to
+// H7. The more edges are dominated, the more time a collapse saves, up to a factor of a few
+// hundred. If two thirds of the edges are dominated, a collapse still saves half of the time and of
+// the memory. If fewer edges are dominated, nearly all edges are kept, and the collapse wastes
+// time. Examples are spheres of higher dimension and distances that are not a metric.
 constexpr double kWorthwhileShare = 0.6;
 // If homology is computed only up to this dimension or a lower one, the engine is chosen without
 // the dimension of the complex, because finding that dimension takes long.
@@ -42,7 +42,7 @@ struct CollapseChoice {
 };
 /// Decides whether edges are collapsed. @param dominated returns the share of dominated edges;
 /// called only if the decision depends on that share.
-/// @throws Error (usage) if a collapse was asked for and would spoil the result.
+/// @throws Error (usage) if a requested collapse would spoil the result.
 template <class Dominated>
 CollapseChoice choose_collapse(const EngineFacts& engine, const Options& options,
                                Dominated&& dominated) {
@@ -142,10 +142,10 @@ std::string_view obstacle_to(const EngineFacts& engine, const RipsInput& input, 
   return engine.rips_obstacle ? engine.rips_obstacle(input, task) : std::string_view();
 }
 
-/// The engine that was asked for, or otherwise the most suitable engine, as far as this can be
-/// known without edges. @param vertices the number of vertices of the task. @return no engine if
-/// none can do the task.
-/// @throws Error (usage) if the engine that was asked for reports a missing condition.
+/// The requested engine, or otherwise the most suitable engine, as far as it can be determined
+/// without edges. @param vertices the number of vertices of the task. @return no engine if none can
+/// do the task.
+/// @throws Error (usage) if the input does not meet a condition of the requested engine.
 FormChoice choose_form(const Rips& rips, const Options& options, int max_dim, Index vertices) {
   const RipsInput input{vertices, rips.points(), rips.options()};
   const Task task = task_of(options, max_dim);
@@ -201,7 +201,7 @@ struct Settled {
     choice = choose_form(rips, options, max_dim, most_vertices(rips));
     if (!choice.engine && options.engine == Engine::automatic &&
         !choose_form(rips, options, max_dim, 1).engine)
-      // Refuses tasks that are impossible for any edges.
+      // Refuses tasks that are impossible whatever the edges are.
       refuse(options.engine, task_of(options, max_dim));
     goes_by_edges = choice.engine && choice.engine->goes_by_edges && max_dim <= kHighestByEdges;
     if (!goes_by_edges) choice.form = edges_for(rips, options);

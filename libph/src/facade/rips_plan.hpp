@@ -6,14 +6,14 @@ namespace ph::detail {
 
 /// Decides how the barcode of a Rips filtration will be computed (see `plan`).
 ///
-/// If an engine can judge the input, it is asked about the input. Otherwise it is asked about a
-/// graph with the same vertices and without edges. If the best engine works edge by edge, the plan
-/// uses the first form of the filtration that the engine takes and that the input can give.
-/// Otherwise, the choice of the engine, the dimension and the collapse depends on the edges. The
-/// edges are then made at once, because the engine needs them anyway.
+/// An engine that can judge the input is asked about the input. Any other engine is asked about a
+/// graph with the same vertices and no edges. If the best engine works edge by edge, the plan uses
+/// the first form of the filtration that the engine takes and that the input can give. Otherwise,
+/// the choice of the engine, the dimension and the collapse depends on the edges. The edges are
+/// then made at once, because the engine needs them anyway.
 RunPlan plan_rips(const Rips& rips, const Options& options, const RunContext& context);
 /// The form that can be planned without edges. Nothing if the plan depends on the edges or the form
-/// consists of them. @throws Error (usage) as `plan`.
+/// consists of edges. @throws Error (usage) as `plan`.
 std::optional<RipsForm> form_without_edges(const Rips& rips, const Options& options);
 /// The plan as far as it is known without edges. It does not include a collapse.
 /// @throws Error (usage) as `plan`.

@@ -73,8 +73,8 @@ class Search {
   }
   bool is_enough() const { return found_.size() == kMostFits || seconds_since(start_) > kPatience; }
 
-  /// Tries a run with some changes and keeps them if it fits into memory. @param make returns the
-  /// complex, built in the context of the trial. @return true if the run fits.
+  /// Tries a run with some changes, and keeps the changes if the run fits into memory. @param make
+  /// returns the complex, built in the context of the trial. @return true if the run fits.
   template <class Make>
   bool try_out(const Options& options, std::vector<Remedy> changes, Make&& make) {
     if (is_enough()) return false;
@@ -103,7 +103,7 @@ class Search {
       found_.push_back({std::move(changes), e.bytes_low, e.bytes_high});
       return true;
     } catch (const Error& error) {
-      // This throws if the caller has asked to stop.
+      // This throws if the caller has requested a stop.
       if (error.kind() == ErrorKind::cancelled) context_.poll();
       return false;
     } catch (const std::bad_alloc&) {
@@ -146,7 +146,8 @@ class Search {
     }
   }
 
-  /// Keeps a threshold that fits, written with few digits. @return true if such a threshold exists.
+  /// Rounds a threshold to few digits, and keeps it if the run fits into memory. @return true if it
+  /// fits.
   bool try_threshold(double threshold) {
     RipsOptions changed = rips_->options();
     const std::string text = fmt::format("{:.3g}", threshold);
@@ -157,9 +158,9 @@ class Search {
     return try_question(std::move(changed), {{Setting::threshold, text}});
   }
 
-  /// Tries a few thresholds, largest first. They leave a half of the edges, a fifth, and so on. If
-  /// so few pairs are edges that the sample cannot count them, tries three quarters of the
-  /// threshold, a half, and so on.
+  /// Tries a few thresholds, largest first. They leave half of the edges, a fifth of them, and so
+  /// on. If so few pairs are edges that the sample cannot count them, tries three quarters of the
+  /// given threshold, half of it, and so on.
   void lower_threshold() {
     const std::optional<double> given = rips_->options().threshold;
     const double highest = given.value_or(std::numeric_limits<double>::infinity());

@@ -14,9 +14,10 @@ namespace {
 
 /// Runs Borůvka's algorithm in the same way as on the CPU. Each point keeps its last answer, that
 /// is, the nearest point of another component that it found. The answer stays valid while the two
-/// points are in different components. After that, the distance in the answer is a lower bound.
-/// Edges are ordered by (length, larger row, smaller row). This is a total order, so components can
-/// choose their edges independently without closing a cycle.
+/// points are in different components. After that, its distance is only a lower bound for the
+/// distance to the nearest point of another component. Edges are ordered by (length, larger row,
+/// smaller row). This is a total order, so components can choose their edges independently without
+/// closing a cycle.
 class Boruvka {
  public:
   Boruvka(Search& search, double limit, FlagEdge* edges, const RunContext& context)
@@ -52,7 +53,7 @@ class Boruvka {
     return {raw(component_), raw(nearest_), raw(bounds_), raw(ends_), raw(takes_), raw(joins_)};
   }
 
-  /// Finds the length of the shortest edge that leaves each component.
+  /// For each component, finds the length of the shortest edge that leaves it.
   void propose() {
     thrust::fill(thrust::device, bounds_.begin(), bounds_.end(), bits_of(limit_));
     const BoruvkaView v = view();

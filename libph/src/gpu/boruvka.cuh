@@ -11,7 +11,8 @@
 
 namespace ph::gpu {
 
-/// A number made of the two rows at the ends of an edge, for sorting edges of equal length.
+/// The rows of the two ends of an edge, packed into one number. Edges of equal length are ordered
+/// by this number.
 PH_DEVICE std::uint64_t ends_of(std::uint32_t a, std::uint32_t b) {
   return a > b ? std::uint64_t{a} << 32 | b : std::uint64_t{b} << 32 | a;
 }
@@ -26,8 +27,8 @@ struct BoruvkaView {
   Nearest* nearest;
   // For each component, the bits of an upper bound for the length of its best edge.
   std::uint64_t* bounds;
-  std::uint64_t* ends;   // for each component, the ends of its first edge of that length
-  std::uint32_t* takes;  // for each component, the position that has its best edge
+  std::uint64_t* ends;   // for each component, the ends of its best edge (see ends_of)
+  std::uint32_t* takes;  // for each component, the position at which its best edge starts
   std::uint32_t* joins;  // for each component, the component that it becomes part of
 
   PH_DEVICE bool knows(std::uint32_t p) const {
@@ -57,14 +58,14 @@ struct BoruvkaView {
 
 using Positions = thrust::device_vector<std::uint32_t>;
 
-/// Finds, for points of a forest, the nearest points of other components (*foreign* points). Each
-/// kind of search has its own order of the points, and numbers them by their positions in this
+/// For each point of a forest, finds the nearest point of another component (a *foreign* point).
+/// Each kind of search has its own order of the points, and numbers them by their positions in this
 /// order.
 class Search {
  public:
   virtual ~Search() = default;
   virtual std::uint32_t size() const = 0;
-  /// On the device, the row of the point at each position in the caller's order.
+  /// For each position, the row of its point in the caller's order. The array is on the device.
   virtual const std::uint32_t* rows() const = 0;
   /// Must be called whenever the components have changed.
   virtual void see(const BoruvkaView& v) = 0;
@@ -76,19 +77,20 @@ class Search {
   virtual void ask(Positions& asked, const BoruvkaView& v, const RunContext& context) = 0;
 };
 
-/// Searches with a hierarchy of boxes, in spaces of 1 to 8 axes. @param x the coordinates by row,
-/// on the device. @param edges receives, by row, an edge from each copy of a point to the first
-/// copy. @param box the bounding box of all points: the smallest coordinates, then the largest.
+/// Makes a search that uses a hierarchy of boxes, for spaces with 1 to 8 axes. @param x the
+/// coordinates by row, on the device. @param edges indexed by row; receives an edge from each copy
+/// of a point to the first copy. @param box the bounding box of all points: the smallest
+/// coordinates, then the largest.
 /// @return null unless there are two distinct points.
 std::unique_ptr<Search> search_by_boxes(const double* x, std::uint32_t size, int axes,
                                         std::span<const double> box, FlagEdge* edges);
-/// Searches all pairs, in spaces of any number of axes.
+/// Makes a search that compares all pairs of points, for spaces with any number of axes.
 std::unique_ptr<Search> search_by_pairs(const double* x, std::uint32_t size, int axes,
                                         double limit);
 
 /// Finds the edges of the forest that are no longer than the limit.
-/// @param edges by row; receives one edge for each component that is joined to another. All other
-/// entries stay unchanged.
+/// @param edges indexed by row; receives one edge for each component that is joined to another. All
+/// other entries stay unchanged.
 void find_forest(Search& search, double limit, FlagEdge* edges, const RunContext& context);
 
 }  // namespace ph::gpu

@@ -137,8 +137,7 @@ class BvhSearch final : public Search {
 };
 
 /// Joins each copy of a point to the first copy. @return the rows of the distinct points, in the
-/// order in which `rows` has them. @param rows has equal points side by side, in the order of their
-/// rows.
+/// order of `rows`. @param rows has equal points side by side, in the order of their rows.
 Positions join_copies(const double* x, int axes, Positions& rows, FlagEdge* edges) {
   const auto size = static_cast<std::uint32_t>(rows.size());
   Positions heads(size), distinct(size);

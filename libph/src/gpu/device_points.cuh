@@ -36,8 +36,8 @@ __global__ void call_body(std::uint32_t count, Body body) {
   const std::uint32_t i = blockIdx.x * blockDim.x + threadIdx.x;
   if (i < count) body(i);
 }
-/// Calls body(i) for all i < count, on the device. Requests to the device that are made later wait
-/// until all calls are done.
+/// Calls body(i) for all i < count, on the device. Work that is sent to the device later starts
+/// only when all calls have finished.
 template <class Body>
 void for_each_index(std::uint32_t count, Body body) {
   constexpr std::uint32_t threads = 128;
@@ -54,7 +54,7 @@ template <class T>
 PH_DEVICE void store(T& cell, T value) {
   cuda::atomic_ref<T, cuda::thread_scope_device>(cell).store(value, cuda::memory_order_relaxed);
 }
-/// Lowers a number to `value` unless the number is smaller already. The number is read first,
+/// Lowers a number to `value` unless the number is already smaller. The number is read first,
 /// because most calls do not lower it and reading is cheap.
 PH_DEVICE void lower(std::uint64_t& cell, std::uint64_t value) {
   if (value < load(cell))
@@ -75,7 +75,7 @@ PH_DEVICE double square_of_distance(const double* x, const double* y, int axes) 
   for (int k = 0; k < axes; ++k) sum += (x[k] - y[k]) * (x[k] - y[k]);
   return sum;
 }
-/// @param square the result of square_of_distance; if the result is tiny, it has lost digits.
+/// @param square the result of square_of_distance, which has lost digits if it is tiny.
 PH_DEVICE double distance_of_square(double square, const double* x, const double* y, int axes) {
   if (square >= kLeastPlainSquare || square == 0) return std::sqrt(square);
   double largest = 0;

@@ -18,7 +18,7 @@
 namespace ph::gpu {
 namespace {
 
-// The limit is the same as on the CPU, because with more axes, boxes exclude few points.
+// With more axes, boxes rule out few points. The CPU code has the same limit.
 constexpr int kMostAxesOfBoxes = 8;
 
 void require_device(std::size_t points, std::size_t axes) {

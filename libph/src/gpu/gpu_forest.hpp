@@ -7,7 +7,7 @@
 namespace ph::gpu {
 
 /// The minimum spanning forest of fewer than 2^32 - 1 points, found on the first NVIDIA GPU that
-/// CUDA lists. The edges are sorted, and equal to the edges of ph::spanning_forest bit by bit.
+/// CUDA lists. The edges are sorted, and equal to the edges of ph::spanning_forest bit for bit.
 /// @throws Error (not_built_in) if libph was built without PH_WITH_CUDA, or there is no GPU; Error
 ///         (usage) unless the metric is plain Euclidean; Error (resource) if the GPU has too little
 ///         memory; Error (cancelled).

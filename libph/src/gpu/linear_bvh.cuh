@@ -62,12 +62,13 @@ struct Curve {
 template <int Axes>
 struct BvhView {
   static constexpr std::uint32_t kMixed = kNone;
-  static constexpr std::uint32_t kFew = 8;  // the number of points that are compared one by one
-  // This is enough for the bits of a code and of a position.
+  static constexpr std::uint32_t kFew = 8;  // up to this many points are compared one by one
+  // The hierarchy has at most one level for each bit of a code and of a position.
   static constexpr int kMostLevels = 160;
 
   struct Node {
-    // The first or the last of the node's positions. The node's own number is at the other end.
+    // The position at one end of the node's range. The node's own number is the position at the
+    // other end.
     std::uint32_t other_end;
     // The last position of the left child, which is also the number of that child.
     std::uint32_t split;
@@ -168,7 +169,7 @@ struct BvhView {
       reach = reach_of(d, Axes);
     };
     constexpr double never = HUGE_VAL;
-    double gaps[kMostLevels];  // the distances to the nodes that are postponed, one per level
+    double gaps[kMostLevels];  // the distances to the postponed nodes, one per level
     std::uint32_t later[kMostLevels];
     int height = 0;
     for (std::uint32_t at = 0;;) {

@@ -7,7 +7,7 @@
 #include "libph/src/gpu/boruvka.cuh"
 
 // Finds nearest foreign points by comparing all pairs of points. This search is used in spaces with
-// so many dimensions that boxes exclude nothing.
+// so many dimensions that boxes rule out nothing.
 
 namespace ph::gpu {
 namespace {
@@ -34,9 +34,10 @@ inline constexpr int kSlab = 16;
 inline constexpr int kSide = 16;
 inline constexpr int kEach = kTile / kSide;
 
-/// Finds the nearest foreign points of a block of 64 asked points (grid axis x). Each block
-/// searches one of several ranges that together cover all points (grid axis y). Points are sorted
-/// by component. A pair of tiles whose points all belong to the same component is skipped.
+/// Finds the nearest foreign points of the points in `asked`, 64 per thread block (grid axis x).
+/// Each thread block searches one of several ranges that together cover all points (grid axis y).
+/// Points are sorted by component. A pair of tiles whose points all belong to the same component is
+/// skipped.
 /// @param order all points, sorted by component. @param answers receives an answer for each asked
 /// point and each range.
 __global__ void __launch_bounds__(kSide* kSide)
@@ -147,7 +148,7 @@ class PairSearch final : public Search {
     const std::uint32_t share = (size() + most_ranges - 1) / most_ranges;
     const std::uint32_t range = std::max(least, (share + kTile - 1) / kTile * kTile);
     const std::uint32_t ranges = (size() + range - 1) / range;
-    // The number of points asked per launch is chosen so that a launch takes a few tenths of a
+    // The number of query points per launch is chosen so that a launch takes a few tenths of a
     // second.
     const double terms_a_point = static_cast<double>(size()) * axes_;
     const auto batch = static_cast<std::uint32_t>(

@@ -45,10 +45,10 @@ class EarlyGraph {
   std::size_t vertices() const { return offsets_.size() - 1; }
   Key edges() const { return edges_; }
   double last_value() const { return last_value_; }
-  /// The number of edges with a value <= `last`, which is the key of the last of these edges.
+  /// The number of edges with a value <= `last`. It is also the key of the last such edge.
   Key edges_up_to(double last) const {
-    // Looking at an edge sorts all edges before it. The search therefore starts at the first edge
-    // and doubles its steps, so that it looks at no edge beyond twice the result.
+    // Reading an edge sorts all edges before it. The search therefore starts at the first edge and
+    // doubles its steps, so that it reads no edge beyond twice the result.
     const Key all = static_cast<Key>(graph_.edge_count());
     Key low = 0, high = std::min<Key>(1, all);
     while (high < all && graph_.value(high) <= last) {

@@ -49,7 +49,7 @@ class EdgeCocycles {
   explicit EdgeCocycles(const RunContext& context)
       : lifetimes_(&context.memory), offsets_(&context.memory), terms_(&context.memory) {}
 
-  /// Takes the values of cocycles from a barcode of the same vertices.
+  /// Takes the values of cocycles from a barcode that was computed on the same vertices.
   /// @param cocycles the barcode, with cocycles in H1. @param keep selects the bars whose cocycles
   /// are taken.
   template <class Keep>

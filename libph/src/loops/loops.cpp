@@ -7,7 +7,7 @@
 namespace ph {
 namespace {
 
-/// True if bar i has a chain of edges that can be walked.
+/// True if bar i has a chain of edges that can be split into walks.
 bool has_walks(const Barcode& cycles, std::size_t i) {
   return cycles[i].dim == 1 && cycles.cell_kind() != CellKind::row &&
          cycles.representative(i).size() > 0;

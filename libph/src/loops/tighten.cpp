@@ -20,7 +20,7 @@
 namespace ph::detail {
 namespace {
 
-// The limits for the number of steps across an edge, for all loops together and for one loop. A
+// The limits for the number of search steps along edges, for all loops together and for one loop. A
 // step takes a few nanoseconds.
 constexpr std::uint64_t kMostSteps = 300'000'000, kMostStepsOfOne = 20'000'000;
 // The limit for the number of cofacets of edges that are listed to compute cocycles. Persistent
@@ -195,8 +195,8 @@ class Tightener {
     return -kInfinity;
   }
 
-  /// The value of the first edge at which the estimated cofacets of all edges so far exceed
-  /// kMostCofacets; infinity if there is no such edge.
+  /// The value of the first edge at which the estimated number of cofacets of all edges so far
+  /// exceeds kMostCofacets; infinity if there is no such edge.
   double last_affordable_value() const {
     std::pmr::vector<std::uint32_t> degrees(static_cast<std::size_t>(all_.size()), 0,
                                             &context_.memory);
@@ -292,8 +292,8 @@ class Tightener {
     std::vector<std::uint32_t> counted;
     std::vector<std::int64_t> slot(cocycles.lifetimes().size(), -1);
     for (std::uint32_t k = 0; k < slot.size(); ++k) {
-      // A bar that needs no cocycles has no elder. It is not compared, because a bar that dies
-      // after the last value of the computation seems to be infinite here.
+      // A bar that needs no cocycles has no elder. Lifetimes are not compared for it, because a
+      // cocycle whose bar dies after the last computed value seems to live forever.
       if (!c.needs_cocycles || !elders_.is_elder(cocycles.lifetimes()[k], c.lifetime)) continue;
       slot[k] = static_cast<std::int64_t>(counted.size());
       counted.push_back(k);

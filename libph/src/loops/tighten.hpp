@@ -8,7 +8,7 @@
 namespace ph::detail {
 
 /// Measures the loops of a Rips filtration, which are its cycles split into closed walks. If
-/// `tighten` is set and memory allows it, replaces them by shorter ones.
+/// `tighten` is set and memory allows it, replaces the loops by shorter loops.
 void measure_and_tighten(const RipsGraph& graph, const Barcode& cycles, const Options& options,
                          bool tighten, std::vector<BarLoops>& loops, const RunContext& context);
 

@@ -13,7 +13,7 @@
 namespace ph {
 namespace {
 
-// This is a lambda instead of the function, because a call through a pointer is not inlined.
+// The comparison is a lambda, because a call of `precedes` through a pointer would not be inlined.
 constexpr auto kInOrder = [](const FlagEdge& a, const FlagEdge& b) { return precedes(a, b); };
 
 constexpr std::size_t kFew = 32;  // edges up to this number are sorted by insertion

@@ -89,7 +89,7 @@ class EdgeLinkSweep {
   const RunContext& context_;
   const LinkLayout layout_;
   ActiveEdges active_;  // edges with a non-zero annotation
-  // The edges so far, except skipped edges that were not added yet.
+  // The edges so far, except skipped edges that have not been added yet.
   LinkGraph graph_;
   LinkComponents components_;           // components of the graph's link
   std::pmr::vector<std::size_t> born_;  // components with which a class of H2 is born

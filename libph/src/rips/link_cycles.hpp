@@ -67,7 +67,8 @@ class LinkCycles {
   using Sums = std::pmr::map<Key, Element>;
 
   Path shortest_path(Vertex from, Vertex to);
-  /// @param from, to consecutive vertices of the cycle of g, which starts with g's own edge.
+  /// Calls `visit(from, to)` for all consecutive vertices of the cycle of g, which starts with g's
+  /// own edge.
   template <class Visit>
   void for_each_step(Generator g, Visit&& visit) const {
     const Path& path = paths_[g];

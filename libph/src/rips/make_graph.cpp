@@ -85,7 +85,7 @@ RipsGraph graph_of_all_points(const HeldPoints& points, const RipsOptions& optio
 RipsGraph graph_of_distinct_points(const HeldPoints& points, const RipsOptions& options,
                                    RipsForm form, const VertexWeights& weights,
                                    const RunContext& context) {
-  // Equal points with births are not merged, because that is not worth the code.
+  // Equal points with births are not merged, because merging them is not worth the extra code.
   if (merges_equal_points(options, form) && weights.births().empty()) {
     const WholeRows whole(points.view);
     const std::pmr::vector<std::uint32_t> firsts =

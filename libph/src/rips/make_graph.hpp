@@ -32,8 +32,8 @@ struct ChosenVertices {
   std::span<const double> births;           ///< for all points of the input; if empty, all are 0
 };
 
-/// @throws Error (usage) on options that do not fit the data, Error (bad_data) on coordinates that
-/// are not finite, Error (resource) on too many points.
+/// @throws Error (usage) if the options do not fit the data; Error (bad_data) if coordinates are
+/// not finite; Error (resource) if there are too many points.
 void check_options(const RipsData& data, const RipsOptions& options, const RunContext& context);
 
 /// Makes a form of the filtration. Precondition: check_options has passed.

@@ -97,7 +97,7 @@ struct MadeForm {
     context.threads = call.threads;
   }
   /// Must be called when the form is complete. From then on, the memory of the form is limited only
-  /// by the context that counts it, and nothing can stop the form.
+  /// by the context that counts it, and no stop request reaches the form.
   void settle() {
     context.memory.set_limit(MemoryBudget::kUnlimited);
     context.stop = {};

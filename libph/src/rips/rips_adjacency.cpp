@@ -16,7 +16,8 @@ RipsAdjacency::RipsAdjacency(std::size_t vertices, std::span<const FlagEdge> edg
 }
 
 bool RipsAdjacency::is_dense(std::size_t vertices, std::size_t edges) {
-  // A matrix takes 4 n^2 bytes, lists take 16 bytes per edge.
+  // A matrix takes 4 n^2 bytes, and lists take 16 bytes per edge. The matrix is chosen if it is at
+  // most about twice as large as the lists.
   const double n = static_cast<double>(vertices);
   return vertices > 0 && static_cast<double>(edges) >= n * (n - 1) / 8;
 }
@@ -52,8 +53,8 @@ void RipsAdjacency::lay_out_sparse(std::span<const FlagEdge> edges) {
 }
 
 // Uses the algorithm of Matula & Beck (1983), which repeatedly removes a vertex of least degree.
-// The largest degree at removal is the degeneracy. Vertices wait in a list sorted by degree, with
-// the start of each bin.
+// The largest degree at removal is the degeneracy. The vertices that are left are kept in a list
+// sorted by degree, together with the first place of each degree.
 Index RipsAdjacency::degeneracy_bound(std::span<const FlagEdge> edges) const {
   const std::size_t n = size_;
   if (n == 0) return 0;
@@ -72,7 +73,8 @@ Index RipsAdjacency::degeneracy_bound(std::span<const FlagEdge> edges) const {
   }
   std::uint32_t degeneracy = 0;
   const auto lower_degree = [&](std::uint32_t w, std::uint32_t floor) {
-    // The vertex was removed already, or its degree cannot fall below the current least degree.
+    // The vertex has already been removed, or its degree cannot fall below the current least
+    // degree.
     if (degree[w] <= floor) return;
     const std::uint32_t first = bin[degree[w]], other = order[first];
     std::swap(order[place[w]], order[first]);

@@ -18,7 +18,7 @@ SparseRips::SparseRips(const GreedyPermutation& order, Index size, double epsilo
                        const RunContext& context)
     : epsilon_(epsilon), largest_ball_(static_cast<std::size_t>(size), 0.0, &context.memory) {
   check_epsilon(epsilon);
-  // The permutation leaves out copies of points. Their balls never grow.
+  // The permutation leaves out copies of points, whose balls never grow.
   for (std::size_t k = 0; k < order.points.size(); ++k)
     // mutant: sparse-largest-ball
     if (order.radii[k] > 0) largest_ball_[order.points[k]] = 2 * order.radii[k] * (1 + 1 / epsilon);

@@ -26,7 +26,7 @@ double VertexWeights::meeting(double b, double c, double distance) const {
     case WeightExponent::infinity:
       break;
   }
-  // An infinite distance would be understood as "never joined".
+  // An infinite distance would mean that the points are never joined.
   if (value > std::numeric_limits<double>::max()) {
     throw Error(ErrorKind::bad_data,
                 fmt::format("two weighted points meet beyond the largest double, {}; scale "

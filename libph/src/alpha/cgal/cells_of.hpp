@@ -84,8 +84,8 @@ inline void name_facets(Triangulation& result) {
 /// each other in space are near in memory.
 /// @tparam Handle a handle of a cell. The function overwrites info() of the cells; info() of a
 /// vertex is its site.
-/// @param for_each_cell calls a function with the handle of each cell and true if the cell is
-/// finite.
+/// @param for_each_cell calls a function for each cell, with its handle and with true if the cell
+/// is finite.
 template <class Handle, class ForEachCell>
 void copy_cells(Triangulation& result, std::size_t sites, ForEachCell&& for_each_cell,
                 const RunContext& context) {

@@ -39,7 +39,7 @@ struct NumberedEdges {
     const std::uint32_t ab = with_ends(a, b);
     return {with_ends(b, c), to(c, ab + 1, begin[a + 1]), ab};
   }
-  /// The first edge with these ends. Preconditions: smaller <= larger, and there is such an edge.
+  /// The first edge with these ends. Preconditions: smaller <= larger, and such an edge exists.
   std::uint32_t with_ends(std::uint32_t smaller, std::uint32_t larger) const {
     return to(larger, begin[smaller], begin[smaller + 1]);
   }

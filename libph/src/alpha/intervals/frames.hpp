@@ -6,9 +6,9 @@
 namespace ph::alpha {
 
 /// Gives the vertices of a cell, facet or edge as indices into `places`, for computations with
-/// coordinates. If the space is periodic, these are images of the sites that are near each other;
-/// otherwise they are the sites. All frames of a simplex are translates of each other, and
-/// differences of coordinates are exact.
+/// coordinates. If the space is periodic, the places of a simplex are images of its sites that lie
+/// near each other; otherwise they are the sites. All frames of a simplex are translates of each
+/// other, and differences of coordinates are exact.
 class Frames {
  public:
   /// @param images null if the space is not periodic. Both arguments must outlive the frames.

@@ -131,8 +131,8 @@ class Frames;
 void find_intervals_of_space(AlphaCells& cells, const Frames& frames, const RunContext& context);
 void find_intervals_of_plane(AlphaCells& cells, const Frames& frames, const RunContext& context);
 
-/// Raises each interval whose value is smaller than the value of one of its faces, which rounding
-/// may cause, to the value of that face, and repeats this until there is no such interval.
+/// Rounding may give an interval a smaller value than one of its faces. Raises such an interval to
+/// the value of that face, and repeats this until no such interval is left.
 void make_monotone(AlphaCells& cells, const Frames& frames, const RunContext& context);
 
 /// Asserts the lemmas behind the pairing in builds with assertions. The function does nothing in

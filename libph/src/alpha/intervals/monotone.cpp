@@ -12,8 +12,8 @@ namespace {
 
 using std::uint32_t;
 
-/// Repairs the values in dimensions 1 and 2, where simplices are few enough to check all of them in
-/// each pass.
+/// Repairs the values in dimensions 1 and 2, where there are few enough simplices to check all of
+/// them in each pass.
 class PlaneRepair {
  public:
   PlaneRepair(AlphaCells& cells, const RunContext& context) : cells_(cells), context_(context) {}

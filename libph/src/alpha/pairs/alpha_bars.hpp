@@ -37,8 +37,8 @@ inline Simplex cell_simplex(const AlphaCells& cells, std::uint32_t t) {
   return {cells.triangulation.cells[t], static_cast<std::size_t>(cells.dim()) + 1};
 }
 
-/// Turns pairs of simplices into bars, and passes on cycles. The class receives simplices as sites,
-/// and replaces the sites by points of the input.
+/// Turns pairs of simplices into bars, and passes bars and cycles on to a BarcodeBuilder. The class
+/// receives simplices as sites, and replaces the sites by points of the input.
 class AlphaBars {
  public:
   AlphaBars(const Alpha& alpha, BarcodeBuilder<Alpha>& bars)
@@ -66,8 +66,8 @@ class AlphaBars {
     bars_.add_bars(some_);
     some_.clear();
   }
-  /// Adds the bar of a class that is born and dies at these squared radii. @return true if the bar
-  /// is kept and its cycle is wanted.
+  /// Adds the bar of a class that is born and dies at the given squared radii. @return true if the
+  /// bar is kept and its cycle is wanted.
   /// @param born, killer called only if cells are wanted; they return the simplices of the birth
   /// and of the death.
   template <class Born, class Killer>

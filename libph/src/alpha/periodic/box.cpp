@@ -40,8 +40,8 @@ void check_periods(PointsView points, std::span<const double> period) {
                               axis, period[axis]));
 }
 
-/// Returns the power of two that is contained between 2^50 and 2^51 times in `size`. For tiny
-/// sizes, returns the smallest positive double.
+/// Returns the power of two u for which size / u lies between 2^50 and 2^51. For tiny sizes,
+/// returns the smallest positive double.
 double unit_of(double size) {
   constexpr int bits = 51, least = -1074;
   return std::ldexp(1.0, std::max(std::ilogb(size) + 1 - bits, least));

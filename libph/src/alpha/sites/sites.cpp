@@ -96,8 +96,8 @@ void place_along_curve(std::span<const Vector<double>> points, std::span<Placed>
   }
 }
 
-/// Sorts points by position along the curve; points whose positions agree in the first 53 bits are
-/// left in any order.
+/// Sorts points by position along the curve; points whose positions agree in the first 53 bits may
+/// come in any order.
 std::pmr::vector<Placed> along_curve(std::span<const Vector<double>> points, int coordinates,
                                      Ticker& ticker, const RunContext& context) {
   std::pmr::vector<Placed> order(points.size(), &context.memory);

@@ -41,7 +41,7 @@ struct Sites {
   std::pmr::vector<std::uint32_t> path;
 };
 
-/// Makes sites of the points. If points at the same place have different weights, the heaviest
+/// Makes sites from the points. If points at the same place have different weights, the heaviest
 /// point becomes the site, and the others are its copies. @param points points of R¹, R² or R³.
 /// @param weights one weight for each point, or none.
 /// @throws Error (usage) if the points are in another space, or if the number of weights is not the

@@ -15,7 +15,7 @@ namespace ph::cubical {
 /// DisjointSets cannot be used, because parents are computed on first use, by several threads, and
 /// a root stores its number instead of a parent.
 /// @tparam Graph has `size()` nodes and `arrow(node)`, the node that the arrow of a node points to.
-/// Arrows form no circles, and following them ends at a root.
+/// Arrows form no cycles, and following them ends at a root.
 template <class Graph>
 class ArrowForest {
  public:

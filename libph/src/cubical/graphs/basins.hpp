@@ -18,7 +18,7 @@ namespace ph::cubical {
 template <class Graph>
 void follow_inner_arrows(const StarGrid& grid, const Graph& graph, ArrowForest<Graph>& forest,
                          const RunContext& context) {
-  // Does nothing if at most one voxel in this many has a critical cell.
+  // Does nothing if at most one in `many` voxels has a critical cell.
   constexpr std::uint32_t many = 256;
   if (grid.critical().size() <= grid.size() / many) return;
   // At the start of a piece, the preceding rows that share cells with it are processed again.
@@ -69,7 +69,7 @@ class Basins {
   std::uint32_t outer_count() const { return outer_count_; }
   /// The critical cells at the roots that were not always there.
   std::pmr::vector<NumberedCell>& roots() { return roots_; }
-  /// The basin of a node. Several threads may call it.
+  /// The basin of a node. Several threads may call this function at the same time.
   std::uint32_t basin_of(std::uint32_t node) { return forest_.number_of_root(forest_.find(node)); }
 
  private:

@@ -60,8 +60,8 @@ class TopGraph : public TopNodes<StarGrid, 3> {
   /// The axis along which the arrow leaves a square, given the edge with which the square is
   /// paired: axis 1 or axis 2, whichever is not the axis of the edge.
   static int exit_of_square(int edge) { return 3 - axis_of_edge(edge); }
-  /// The word, explained at `for_each_inner_arrow`, that tells the arrows of the top cells in a
-  /// voxel's star.
+  /// The word that encodes the arrows of the top cells in a voxel's star (see
+  /// for_each_inner_arrow).
   template <class ExitOf>
   std::uint32_t arrow_word(unsigned cells, ExitOf&& exit_of) const;
   /// True if a top cell and the two cells beside it along the axis lie between consecutive voxels.

@@ -13,8 +13,8 @@ namespace ph::cubical {
 /// The nodes of a graph of top cells. They are the cells of the highest dimension, numbered by
 /// their first corner, and the outside, which has two parts if only one axis has ends. The outside
 /// and the cells that never enter were always there.
-/// @tparam Grid a SlabFrame that knows which voxels enter. @tparam most the size of arrays by axis:
-/// three, or the maximum number of axes.
+/// @tparam Grid a SlabFrame that knows which voxels enter. @tparam most the size of arrays that are
+/// indexed by axis: three, or the maximum number of axes.
 template <class Grid, std::size_t most>
 class TopNodes {
  public:

@@ -7,8 +7,8 @@
 namespace ph::cubical {
 
 /// The nodes of a graph of voxels for any number of axes. They are the voxels and the outside,
-/// which has two parts if only one axis has ends. The outside was always there. Voxels that never
-/// enter in the T-construction, where they are not cells, were also always there.
+/// which has two parts if only one axis has ends. The outside was always there. In the
+/// T-construction, voxels that never enter are not cells, and were also always there.
 /// @tparam Grid a SlabFrame that knows which voxels enter.
 template <class Grid>
 class VoxelNodes {

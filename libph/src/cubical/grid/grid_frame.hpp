@@ -74,7 +74,8 @@ class GridFrame {
   double value(std::uint32_t v) const {
     return is_t_construction_ ? -grid_.value(size_ - 1 - v) : grid_.value(v);
   }
-  // This has the meaning of PartStars::sees. The frame of an entire grid sees all voxels.
+  // These functions have the same meaning as in PartStars. The frame of an entire grid sees all
+  // voxels.
   static constexpr bool sees(std::uint64_t) { return true; }
   static constexpr bool sees_square(std::uint32_t, int) { return true; }
   static std::uint32_t here(std::uint64_t voxel) { return static_cast<std::uint32_t>(voxel); }

@@ -254,13 +254,13 @@ class StarTables {
   std::array<std::uint8_t, 64> arrow_{};
   // These data are needed for each voxel, and are therefore side by side in memory.
   struct OfEdges {
-    std::uint16_t squares_on;  // the squares that have both of these edges
+    std::uint16_t squares_on;  // the squares whose two edges are both in the set
     std::uint8_t lowest;       // the oldest edge, as a bit
   };
   struct OfSquares {
-    std::uint8_t cubes_on;  // the cubes that have all three of these edges
-    std::uint8_t joined;    // the edges paired with one of these squares
-    std::uint8_t loops;     // the number of squares not paired with an edge
+    std::uint8_t cubes_on;  // the cubes whose three squares are all in the set
+    std::uint8_t joined;    // the edges paired with a square of the set
+    std::uint8_t loops;     // the number of squares of the set that are not paired with an edge
   };
   std::array<OfEdges, 64> of_edges_{};
   std::array<OfSquares, 4096> of_squares_{};

@@ -20,7 +20,7 @@ namespace ph::cubical {
 enum class Before { value, order };
 
 /// Persistent components of one of the two graphs of a grid. Unlike `ComponentPairing`, this class
-/// keeps the component into which each component merges. A component is named by the basin of its
+/// records into which component each component merges. A component is named by the basin of its
 /// oldest root.
 template <class Graph>
 class ComponentTree {
@@ -46,7 +46,7 @@ class ComponentTree {
   const StarGrid& grid() const { return grid_; }
   const Graph& graph() const { return graph_; }
   std::uint32_t basin_count() const { return static_cast<std::uint32_t>(nodes_.size()); }
-  /// The basin of a node. Several threads may call it.
+  /// The basin of a node. Several threads may call this function at the same time.
   std::uint32_t basin_of(std::uint32_t node) { return basins_.basin_of(node); }
   /// True if a component was always there.
   bool is_outer(std::uint32_t basin) const { return basin < basins_.outer_count(); }

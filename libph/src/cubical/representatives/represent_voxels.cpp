@@ -203,8 +203,8 @@ class Representing {
     });
   }
 
-  // Stores the sets of voxels of all components, by value. @return the position of the first stored
-  // voxel among all voxels stored.
+  // Stores the sets of voxels of all components, as Before::value defines them. @return the
+  // position of the first stored voxel among all voxels stored.
   template <class Graph>
   std::size_t make_sets(ComponentTree<Graph>& tree, bool with_absent,
                         std::optional<NestedSets>& sets) {

@@ -52,7 +52,7 @@ class InputTopCells {
     for (int e = 0; e < kEdgeCount; ++e) {
       const int a = axis_of_edge(e);
       if (up_[a] == 0) continue;
-      // Axes of the input run backwards.
+      // Here the axes of the input run backwards.
       use(StarCell{node, kEdges[e], 0}, graph.ends(node, static_cast<std::uint32_t>(e))[1],
           (kEdges[e][a] < 0) != is_odd(a));
     }

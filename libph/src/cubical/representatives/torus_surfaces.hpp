@@ -14,10 +14,10 @@ namespace ph::cubical {
 /// Cycles for the surfaces that never die, in a grid with three periodic axes.
 ///
 /// Top cells are connected across facets that are younger than the facet that gives birth to the
-/// surface. Following these paths gives each cell a place in the universal cover of the torus.
-/// Consider a linear function of the numbers of turns around the axes that vanishes on all closed
-/// paths except the path that the birth closes. This function jumps only at the facet of the birth
-/// and at older facets, and its jumps form a cycle.
+/// surface. Following paths across these facets gives each top cell a place in the universal cover
+/// of the torus. Consider a linear function of the numbers of turns around the axes that vanishes
+/// on all closed paths except the path that the birth closes. This function jumps only at the facet
+/// of the birth and at older facets, and its jumps form a cycle.
 template <Field K>
 class TorusSurfaces {
  public:

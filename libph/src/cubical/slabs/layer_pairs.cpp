@@ -118,7 +118,7 @@ void LayerPairs::settle_vertices(PairSink& pairs, FreeCellSink* free) {
           pairs.pair(0, voxel(*dies), edge(bridge));
       },
       [&](const SeamBridge& bridge) {
-        // This edge closes a circle.
+        // This edge closes a cycle.
         // mutant: slab-circle
         if (grid_.top_dim() == 1) pairs.essential(1, edge(bridge));
         if (free != nullptr) free->add_edge(bridge.cell);

@@ -14,9 +14,9 @@
 
 namespace ph::cubical {
 
-/// Finds the edges of a grid with two axes that neither graph pairs. On a torus there are two of
-/// these edges, and their classes never die. The graph of voxels passes on the edges that do not
-/// join components. The graph of top cells later visits each of these edges. If the edge joins
+/// Finds the edges of a grid with two axes that neither graph pairs. A torus has two such edges,
+/// and their classes never die. The graph of voxels passes on the edges that do not join
+/// components. The graph of top cells later visits each of these edges. If the edge joins
 /// components there, it is in a pair.
 class EdgesInNeither {
  public:

@@ -280,7 +280,8 @@ class SeamForest {
     for_each_in_seams([&](std::uint32_t& root) { root = number[root]; });
     for (std::uint32_t& part : outside) part = number[part];
   }
-  // For each root, the lowest value at which it is connected to a node that other layers share.
+  // For each root, the lowest value at which it is connected to a node that is shared with other
+  // layers.
   std::pmr::vector<double> when_reached() const {
     std::pmr::vector<double> reached(roots.size(), kNever, &context_.memory);
     for (const Seam* const seam : {&before, &after})  // mutant: seam-before
@@ -293,7 +294,7 @@ class SeamForest {
     for (const std::uint32_t part : outside) reached[part] = -kNever;
     return reached;
   }
-  // Calls `use(root)` for the roots of the nodes that other layers share.
+  // Calls `use(root)` for the roots of the nodes that are shared with other layers.
   template <class Use>
   void for_each_in_seams(Use&& use) {
     for (Seam* const seam : {&before, &after})

@@ -174,7 +174,7 @@ std::size_t StarGrid::close_stars(std::uint32_t begin, std::uint32_t end, std::u
       if (stars_[v] == kAbsent) continue;
       const auto [star, critical] = tables_of(v).closed(stars_[v]);
       stars_[v] = star;
-      // This avoids a branch, which would be unpredictable. It always writes v, but advances
+      // A branch would be unpredictable here. The code therefore always writes v, but advances
       // `count` only if `critical` is not 0.
       list[count] = v;
       count += (critical | (0U - critical)) >> 31;

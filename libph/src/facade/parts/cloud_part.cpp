@@ -18,10 +18,10 @@
 namespace ph {
 namespace {
 
-/// The number of points to draw, unless the user chooses it. If more points are drawn, each part
-/// takes longer. If fewer points are drawn, more points of the cloud count as near a block. For a
-/// cloud that fills three dimensions, this share is (blocks / sample)^1/3. All parts compute the
-/// same number and therefore draw the same points.
+/// The size of the sample that each part draws from the cloud, unless the user chooses it. With a
+/// larger sample, each part takes longer. With a smaller sample, a larger share of the cloud counts
+/// as near a block. For a cloud that fills three dimensions, this share is (blocks / sample)^1/3.
+/// All parts compute the same number and therefore draw the same points.
 Index points_to_draw(Index points, double blocks) {
   constexpr double least_a_block = 64, most = 1 << 28;
   const double n = static_cast<double>(points);
@@ -93,8 +93,8 @@ CloudPartForecast CloudPart::forecast(PointsView points, int parts,
   const WholeCloud whole = whole_cloud(points, parts, options);
   const auto n = static_cast<double>(whole.points), of_part = n / parts;
   const double of_block = of_part / whole.blocks;
-  // This was measured on 10⁶ to 10⁸ points, uniform and in clusters (see
-  // bench/parts/cloud_parts.cpp). More points are near a block than in it if the block is small or
+  // The factors below were measured on 10⁶ to 10⁸ points, uniform and in clusters (see
+  // bench/parts/cloud_parts.cpp). More points lie near a block than in it if the block is small or
   // at the border of a cluster.
   constexpr double small = 32 << 20;
   CloudPartForecast forecast;

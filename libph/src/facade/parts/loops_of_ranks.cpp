@@ -11,15 +11,15 @@ namespace {
 
 using Bytes = std::vector<std::byte>;
 
-/// The message from one rank to another in a round. Its first byte says whether the sender has sent
-/// anything to any rank. The message for the other rank follows, and may be empty.
+/// The bytes that one rank sends to another in a round. The first byte says whether the sender has
+/// a message for any rank. The message for the receiving rank follows, and may be empty.
 Bytes letter(bool is_busy, const Bytes& message) {
   Bytes bytes{std::byte{is_busy}};
   bytes.insert(bytes.end(), message.begin(), message.end());
   return bytes;
 }
 
-/// Lets all ranks exchange the messages of one round. @return true if any rank has sent something.
+/// Lets all ranks exchange the messages of one round. @return true if any rank had a message.
 bool exchange(ImageLoops& loops, int parts, Post& post) {
   const int rank = post.rank();
   std::vector<Bytes> messages(static_cast<std::size_t>(parts));

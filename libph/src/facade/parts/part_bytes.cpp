@@ -110,7 +110,7 @@ void put_forest(ByteWriter& to, const SeamForest<backwards>& forest) {
   });
 }
 
-/// The voxel and the number of a cell, as they were read.
+/// The voxel and the number of a cell, as read from the bytes and not yet checked.
 struct CellName {
   std::uint64_t voxel;
   std::uint32_t number;
@@ -119,8 +119,8 @@ CellName get_name(ByteReader& from) {
   const auto voxel = from.get<std::uint64_t>("cell");
   return {voxel, from.get<std::uint32_t>("cell")};
 }
-/// Refuses names that no cell has. @param axes the number of axes of the grid. @param dim the
-/// dimension of the cell.
+/// Returns the cell with a name that was read, and refuses names that no cell has. @param axes the
+/// number of axes of the grid. @param dim the dimension of the cell.
 GridCell checked(const ByteReader& from, const CellName& name, int axes, int dim) {
   if (name.voxel >= GridCell::kMostVoxels || !cubical::direction_in_star(axes, dim, name.number))
     from.refuse("cell");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Forecasts, from a sample of an image's voxels, the time and the memory that parts of the image
-// take, and cuts the image into parts that take equally long.
+// Forecasts the time and the memory that the parts of an image need, from a sample of its voxels.
+// Cuts the image into parts that take equally long.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -30,7 +30,7 @@ class LayerSample {
         width_(shape.axis(shape.axis_count() - 1).extent) {}
 
   std::vector<double> minima() const {
-    // One in this many layers is read.
+    // One in `step` layers is read.
     constexpr std::uint64_t few = 64;
     const std::uint64_t step = std::clamp<std::uint64_t>(layers_ / few, 1, 16);
     std::vector<double> shares(layers_);
@@ -48,7 +48,7 @@ class LayerSample {
     const std::uint64_t rows = layer_size_ / width_;
     const std::uint64_t step = std::clamp<std::uint64_t>(layer_size_ / many, 1, 8);
     std::uint64_t looked_at = 0, found = 0;
-    // At least one row is read in a layer with few rows.
+    // In a layer with few rows, at least one row is read.
     // mutant: forecast-few-rows
     for (std::uint64_t y = std::min(step / 2, rows - 1); y < rows; y += step)
       for (std::uint64_t x = 0; x < width_; ++x, ++looked_at)
@@ -80,9 +80,9 @@ double cost(double minima, bool loops) {
   return 1 + (loops ? of_loops : of_components) * minima;
 }
 
-/// An upper bound for the bytes per minimum in the adjacent layers that the columns of loops send
-/// across a border between parts. It was measured on 256³ and 512³ voxels of noise, where columns
-/// grow with the volume and often cross the border.
+/// An upper bound for the bytes that columns of loops send across a border between parts, per
+/// minimum in the layers at that border. It was measured on 256³ and 512³ voxels of noise, where
+/// columns grow with the volume and often cross the border.
 double bytes_across(double layer_size) {
   constexpr double of_small = 20000, small = 256, power = 3.5;
   return of_small * std::pow(std::max(1.0, std::sqrt(layer_size) / small), power);
@@ -126,8 +126,8 @@ ImagePartForecast ImagePart::forecast(const Image& image, int parts,
   const bool vertices = whole.loops || cubical::wants_vertices(shape, whole.wanted());
   const bool tops = whole.loops || cubical::wants_top_cells(shape, whole.wanted());
   const auto layer_size = static_cast<double>(layout.layer_size());
-  // These numbers of bytes were measured on noise, waves and blurred noise of 128³ to 512³ voxels.
-  // A seam stores values, roots, and components that may still be joined there. Each minimum gives
+  // These byte counts were measured on noise, waves and blurred noise of 128³ to 512³ voxels. A
+  // seam stores values, roots, and components that may still be joined there. Each minimum gives
   // one bar. The other graph and the loops give, on average, a fixed number of bars per minimum.
   const double seam = layer_size * ((vertices ? 48 : 0) + (tops ? 25 : 0));
   const double bar = whole.cells ? 72 : 24;

@@ -106,8 +106,8 @@ class Annotations {
     dead_.eliminate_from(scratch_);
     return intern();
   }
-  /// Calls `visit(edge, terms)` for each edge whose class is not zero, with the terms of that
-  /// class.
+  /// Calls `visit(edge, terms)` for each edge whose class is not zero. The terms are the vector of
+  /// that class.
   template <class Visit>
   void for_each_edge(Visit&& visit);
 
@@ -190,7 +190,7 @@ class Annotations {
   /// Updates occurrences_ after the terms of a class have changed. @param before the former terms
   /// of the class.
   void change_occurrences(std::uint32_t id, const Vector& before);
-  /// Finds the class of the vector in scratch_. If there is no such class, makes it.
+  /// Finds the class of the vector in scratch_. If there is no such class, makes one.
   Class intern();
   /// Makes room for one more class.
   void add_class();

@@ -38,7 +38,7 @@ class CochainLists {
     const K& field;
     ListPool<Term> lists;
     std::pmr::vector<Term> merged;
-    std::pmr::vector<ListId> own;  // lists of this cochain to which lists of the other are added
+    std::pmr::vector<ListId> own;  // lists of this cochain that lists of the other are added to
   };
 
   explicit CochainLists(std::pmr::memory_resource* memory) : lists_(memory) {}
@@ -61,8 +61,8 @@ class CochainLists {
   template <class OnEnter, class OnLeave>
   void add_terms(Vertex a, Terms terms, Element scale, Shared& shared, OnEnter&& on_enter,
                  OnLeave&& on_leave);
-  /// Appends terms to the list of a, in any order. No simplex may be in the list yet or occur
-  /// twice. The lists are unsorted until the next `add`.
+  /// Appends terms to the list of a, in any order. No simplex of the terms may occur twice or be in
+  /// the list already. The lists are unsorted until the next `add`.
   template <class OnEnter>
   void append_terms(Vertex a, Terms terms, Shared& shared, OnEnter&& on_enter) {
     if (terms.empty()) return;

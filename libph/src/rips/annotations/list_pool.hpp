@@ -34,7 +34,7 @@ class ListPool {
   /// Both functions should be called some time before the list is used.
   void prefetch(Id id) const { __builtin_prefetch(&lists_[id]); }
   void prefetch_terms(Id id) const {
-    // These are numbers of bytes. The hardware prefetches the rest of a long list.
+    // Both constants are numbers of bytes. The hardware prefetches the rest of a long list.
     constexpr std::size_t line = 64, most = 512;
     const auto* const begin = reinterpret_cast<const char*>(lists_[id].data());
     const std::size_t bytes = std::min(lists_[id].size() * sizeof(T), most);

@@ -9,9 +9,9 @@ namespace {
 
 // These limits were measured (see docs/explanation/engines/beta-skeleton.md). With fewer points,
 // listing all edges is faster. In R^4, the limit is determined by the memory that the edges take.
-// Indexed by the number of coordinates.
+// The limits are indexed by the number of coordinates.
 constexpr Index kFewestPoints[] = {0, 1'000, 3'000, 15'000, 40'000};
-// If there are fewer edges per point, listing the edges is faster.
+// With fewer edges per point than this, listing the edges is faster.
 constexpr double kFewEdges = 1'000;
 
 /// The approximate number of edges per point, from a sample of pairs.

@@ -78,7 +78,8 @@ class NodePairQueue {
   }
 
  private:
-  // The shift is out of 52 binary digits; it gives 128 bins per power of two.
+  // This shift drops 45 of the 52 bits after the binary point, which leaves 128 bins per power of
+  // two.
   static constexpr int kWidestShift = 45;
   static constexpr int kPartBits = 5;
   static constexpr std::size_t kParts = 1 << kPartBits;

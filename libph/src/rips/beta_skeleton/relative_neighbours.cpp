@@ -9,7 +9,7 @@
 namespace ph::beta_skeleton {
 namespace {
 
-/// Finds the edges of the graph among the pairs of points of a pair of nodes.
+/// Finds the edges of the graph between the points of two nodes.
 template <int D>
 class Finder {
  public:
@@ -113,12 +113,12 @@ class Finder {
 template <int D>
 std::pmr::vector<FoundEdge> relative_neighbours(const PointTree<D>& tree, double limit,
                                                 const RunContext& context) {
-  constexpr std::size_t few = 1 << 12;  // so few pairs are not worth a thread
+  constexpr std::size_t few = 1 << 12;  // so few points are not worth a thread
   const std::size_t pieces = tree.size() < few ? 1 : 1024;
   std::pmr::memory_resource* const memory = &context.memory;
   std::pmr::vector<FoundEdge> edges(memory);
-  // This starts with the root paired with itself, and splits pairs until there are enough for all
-  // threads. Each thread then takes a pair and handles everything below it.
+  // The loop starts with the root paired with itself, and splits pairs until there are enough for
+  // all threads. Each thread then takes a pair and handles everything below it.
   std::pmr::vector<NodePair> pairs({{1, 1}}, memory), next(memory);
   Finder<D> finder(tree, limit, context);
   while (!pairs.empty() && pairs.size() < pieces) {

@@ -39,7 +39,8 @@ class SkeletonCycles {
       ends_[--begin_[u + 1]] = {v, generators[i]};
       ends_[--begin_[v + 1]] = {u, generators[i]};
     }
-    // This shifts the starts, so that the entry for p + 1 becomes the entry for p.
+    // The entry for p + 1 is now the start of the list of p. All entries are therefore shifted by
+    // one.
     std::copy(begin_.begin() + 1, begin_.end(), begin_.begin());
     begin_.back() = static_cast<std::uint32_t>(ends_.size());
   }

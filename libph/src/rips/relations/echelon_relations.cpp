@@ -72,8 +72,8 @@ auto EchelonRelations::store(Generator youngest) -> Relation {
 }
 
 void EchelonRelations::substitute(Word* vectors, std::size_t generators, std::size_t words) const {
-  // The relation that killed g has other generators, which are older than g and whose vectors are
-  // final.
+  // The other generators of the relation that killed g are older than g, and their vectors are
+  // already final.
   for (Generator g = 0; g < generators; ++g) {
     if (!is_dead(g)) continue;
     const auto add = [=, to = vectors + g * words](std::size_t h) {

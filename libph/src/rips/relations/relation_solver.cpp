@@ -20,8 +20,8 @@ double most_bytes(const MemoryBudget& memory) {
   return std::min(most, share * static_cast<double>(memory.left()));
 }
 
-// True if memory is allocated in one block. For more vertices, memory that is no longer needed must
-// be freed earlier.
+// True if there are so few vertices that memory is allocated in one block. For more vertices,
+// memory that is no longer needed must be freed earlier.
 bool is_few(std::size_t vertices) { return vertices <= 700; }
 std::size_t part_bytes(std::size_t vertices) {
   constexpr std::size_t line = 64;
@@ -119,8 +119,8 @@ bool RelationSolver::solve_if_due() {
     if (deaths_.size() < enough) return true;
     if (!solve()) return false;
   } else {
-    // Measurements led to this factor. If lists are turned into rows earlier, the rows are longer.
-    // If they are turned into rows later, more relations are checked in vain.
+    // This factor was found by measurement. If lists are turned into rows earlier, the rows are
+    // longer. If they are turned into rows later, more relations are checked in vain.
     if (5 * lists_->relations().dead_count() <= 4 * births_.size()) return true;
     const auto vectors = static_cast<double>(births_.size() + 2 * sum_count());
     if (vectors * static_cast<double>(living_) / 8 > most_bytes(memory_)) return true;

@@ -59,8 +59,8 @@ class LinkSurfaces {
         own_star_(star_.size(), 0, &context.memory),
         cocycle_(&context.memory) {}
 
-  /// The birth of a class of H3. It consists of a cocycle of a link that kills no class of H2, and
-  /// the first tetrahedron where this cocycle stops being a coboundary.
+  /// The birth of a class of H3: a cocycle of a link that kills no class of H2, and the first
+  /// tetrahedron at which this cocycle stops being a coboundary.
   struct BirthAbove {
     typename Observer::Tetrahedron birth;
     LinkPairs<K>* loop;

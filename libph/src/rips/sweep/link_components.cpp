@@ -117,7 +117,7 @@ void LinkComponents::sort_components() {
 }
 
 bool LinkComponents::find_apex(const FlagEdge& e) {
-  // An apex is joined to every other vertex. If a candidate is not joined to some vertex, the apex
+  // An apex is joined to every other vertex. If a candidate is not joined to some vertex, any apex
   // is therefore a neighbour of this vertex.
   const std::size_t words = graph_.words();
   const auto has = [&](std::size_t w) { return (rest_[w / 64] >> (w % 64) & 1) != 0; };

@@ -17,8 +17,8 @@ class LinkForest {
   using Vertex = std::uint32_t;
   using Word = bits::Word;
 
-  /// A part that the next vertex is joined to, and the first vertex of that part to which it is
-  /// joined.
+  /// A part to which the next vertex is joined, and the first vertex of that part to which the next
+  /// vertex is joined.
   struct Meeting {
     std::size_t part;
     Vertex at;
@@ -52,8 +52,8 @@ class LinkForest {
   std::size_t part_count() const { return roots_.size(); }
   const Word* part(std::size_t i) const { return parts_.data() + i * graph_.words(); }
 
-  /// Adds the vertex. At first, y alone is a part. Calls `on_join(younger root, its vertices, w)`
-  /// for each edge wy that joins two parts.
+  /// Adds the vertex y, which is a part of its own at first. Calls `on_join(younger root, its
+  /// vertices, w)` for each edge wy that joins two parts.
   template <class OnJoin>
   void join(Vertex y, OnJoin&& on_join);
 

@@ -23,10 +23,10 @@ struct SweepTuning {
   std::size_t relations_for_formal = 1 << 10;  ///< least number of relations solved together
 };
 
-/// The output that is wanted of a sweep of edge links.
+/// The output that is wanted from a sweep of edge links.
 struct SweepRequest {
   bool surfaces = false;  ///< true if H2 is wanted
-  /// True if H3 is wanted. Needs `surfaces`, and gives only bars of positive length without
+  /// True if H3 is wanted. Needs `surfaces`, and gives only bars of positive length, without
   /// representatives.
   bool volumes = false;
   bool cycles = false;  ///< true if cycles of H1 are wanted
