@@ -22,10 +22,10 @@ extern template void pair_simplices(const Alpha&, const Zp&, BarcodeBuilder<Alph
 
 namespace ph {
 
-/// Computes alpha complexes in all dimensions, without zero-length pairs. Simplices are first
-/// paired inside their intervals (see AlphaCells). The remaining simplices are paired by union-find
-/// in the lowest and the highest dimension, and by matrix reduction in the dimensions between them.
-/// The engine gives cycles, except in a periodic space. It gives no cocycles. See
+/// Computes the bars of alpha complexes in all dimensions, except bars of length zero. Simplices
+/// are first paired inside their intervals (see AlphaCells). The remaining simplices are paired by
+/// union-find in the lowest and the highest dimension, and by matrix reduction in the dimensions
+/// between them. The engine gives cycles, except in a periodic space. It gives no cocycles. See
 /// docs/explanation/engines/alpha.md.
 struct AlphaEngine {
   static constexpr Engine id = Engine::gradient;

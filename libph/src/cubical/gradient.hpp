@@ -7,12 +7,12 @@
 
 namespace ph {
 
-/// Computes images in all dimensions, without zero-length pairs. Cells are first paired voxel by
-/// voxel. The remaining cells are paired by union-find in the lowest and the highest dimension, and
-/// by reduction between these dimensions. With three axes, the reduction can handle at most about
-/// 2^31 voxels; with more axes, it can handle at most about 2^32 cells. If no reduction is needed,
-/// images may have any size. (Axes with one voxel do not count.) For up to three axes, the engine
-/// gives cycles or sets of voxels, but no cocycles. See
+/// Computes the bars of images in all dimensions, except bars of length zero. Cells are first
+/// paired voxel by voxel. The remaining cells are paired by union-find in the lowest and the
+/// highest dimension, and by reduction between these dimensions. With three axes, the reduction can
+/// handle at most about 2^31 voxels; with more axes, it can handle at most about 2^32 cells. If no
+/// reduction is needed, images may have any size. (Axes with one voxel do not count.) For up to
+/// three axes, the engine gives cycles or sets of voxels, but no cocycles. See
 /// docs/explanation/engines/discrete-gradient.md.
 struct GradientEngine {
   static constexpr Engine id = Engine::gradient;

@@ -98,14 +98,14 @@ Index most_vertices(const Rips& rips) {
   return options.vertices.empty() ? rips.size() : static_cast<Index>(options.vertices.size());
 }
 
-/// An engine, the form that it takes, and the reason for choosing it.
+/// An engine, the form that it will use, and the reason for choosing the engine.
 struct FormChoice {
   const EngineFacts* engine = nullptr;
   RipsForm form = RipsForm::edges;
   std::string_view reason;
 };
 
-/// Makes a plan from these choices. @param options must include the highest dimension.
+/// Makes a plan from the given choices. @param options must include the highest dimension.
 RunPlan planned(const Options& options, const FormChoice& choice, CollapseChoice&& collapse) {
   RunPlan plan = run_plan(options, *options.max_dim, choice.engine->id, choice.reason);
   plan.form = choice.form;
@@ -115,8 +115,8 @@ RunPlan planned(const Options& options, const FormChoice& choice, CollapseChoice
   return plan;
 }
 
-/// The form that lists edges for a task. It is a spanning forest if nothing else is available.
-/// Otherwise it is all edges or the edges of distinct points.
+/// The form that provides the edges for a task. It is a spanning forest if nothing else is
+/// available. Otherwise it is all edges or the edges of distinct points.
 RipsForm edges_for(const Rips& rips, const Options& options) {
   if (is_forest_alone(rips)) return RipsForm::forest;
   const RipsOptions& asked = rips.options();
@@ -127,7 +127,7 @@ RipsForm edges_for(const Rips& rips, const Options& options) {
              : RipsForm::edges;
 }
 
-/// The first form that the engine takes and the input can give, or nothing.
+/// The first form that the engine accepts and the input can provide, or nothing.
 std::optional<RipsForm> form_for(const EngineFacts& engine, const Rips& rips,
                                  const Options& options) {
   if (engine.rips_forms.empty()) return edges_for(rips, options);
@@ -193,7 +193,7 @@ RunPlan plan_by_edges(const Rips& rips, const Options& options, RipsForm form,
   });
 }
 
-/// The decisions that are made before any edge is made.
+/// The decisions that are made before any edges are listed.
 struct Settled {
   Settled(const Rips& rips, Options asked) : options(std::move(asked)) {
     const int max_dim = max_dim_of(rips, options);

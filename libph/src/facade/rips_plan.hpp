@@ -8,7 +8,7 @@ namespace ph::detail {
 ///
 /// An engine that can judge the input is asked about the input. Any other engine is asked about a
 /// graph with the same vertices and no edges. If the best engine works edge by edge, the plan uses
-/// the first form of the filtration that the engine takes and that the input can give. Otherwise,
+/// the first form of the filtration that the engine accepts and the input can provide. Otherwise,
 /// the choice of the engine, the dimension and the collapse depends on the edges. The edges are
 /// then made at once, because the engine needs them anyway.
 RunPlan plan_rips(const Rips& rips, const Options& options, const RunContext& context);

@@ -23,7 +23,7 @@ constexpr double kBesideLimit = 4 << 20;
 // The number of CPU seconds after which no trial begins. Trials are stopped after twice that time.
 // The time is short because the user is waiting for an error message.
 constexpr double kPatience = 3;  // in seconds
-// The share of the remaining memory limit that a trial gets. It is less than 1 because the heap is
+// The share of the remaining memory that a trial may use. It is less than 1, because the heap is
 // fragmented.
 constexpr double kTrialShare = 0.75;
 constexpr double kBytesPerEdge = 16;

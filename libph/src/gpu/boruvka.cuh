@@ -17,7 +17,7 @@ PH_DEVICE std::uint64_t ends_of(std::uint32_t a, std::uint32_t b) {
   return a > b ? std::uint64_t{a} << 32 | b : std::uint64_t{b} << 32 | a;
 }
 
-/// The data of Boruvka that kernels use.
+/// The arrays of Boruvka, for use in kernels.
 struct BoruvkaView {
   // For each position, the position that represents its component.
   std::uint32_t* component;

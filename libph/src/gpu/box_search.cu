@@ -81,7 +81,7 @@ class BvhSearch final : public Search {
       (node.first(i) == node.split ? parent_of_leaf : parent_of_node)[node.split] = i;
       (node.last(i) == node.split + 1 ? parent_of_leaf : parent_of_node)[node.split + 1] = i;
     });
-    // The second thread that reaches a node knows that both children have their boxes.
+    // When the second thread reaches a node, the boxes of both children are ready.
     Positions arrivals(size() - 1, 0);
     const auto arrival = raw(arrivals);
     for_each_index(size(), [=] __host__ __device__(std::uint32_t p) {

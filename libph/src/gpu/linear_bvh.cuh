@@ -57,8 +57,8 @@ struct Curve {
   }
 };
 
-/// The data of the hierarchy that kernels use. Inner nodes have the numbers 0 to size - 2, and the
-/// root has the number 0. Leaves are points.
+/// The arrays of the hierarchy, for use in kernels. Inner nodes have the numbers 0 to size - 2, and
+/// the root has the number 0. Leaves are points.
 template <int Axes>
 struct BvhView {
   static constexpr std::uint32_t kMixed = kNone;

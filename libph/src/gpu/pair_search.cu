@@ -26,11 +26,11 @@ struct PairPoints {
   }
 };
 
-// The number of points on each side of a square of pairs.
+// The number of points on each side of a tile, which is a square of pairs.
 inline constexpr int kTile = 64;
-// The number of axes that a block holds at a time.
+// The number of axes that a thread block loads at a time.
 inline constexpr int kSlab = 16;
-// The number of threads on each side.
+// The number of threads on each side of a thread block, which is square.
 inline constexpr int kSide = 16;
 inline constexpr int kEach = kTile / kSide;
 
@@ -38,8 +38,8 @@ inline constexpr int kEach = kTile / kSide;
 /// Each thread block searches one of several ranges that together cover all points (grid axis y).
 /// Points are sorted by component. A pair of tiles whose points all belong to the same component is
 /// skipped.
-/// @param order all points, sorted by component. @param answers receives an answer for each asked
-/// point and each range.
+/// @param order all points, sorted by component. @param answers receives an answer for each point
+/// in `asked` and each range.
 __global__ void __launch_bounds__(kSide* kSide)
     nearest_of_tiles(PairPoints points, const std::uint32_t* asked, std::uint32_t asked_count,
                      const std::uint32_t* order, std::uint32_t range,

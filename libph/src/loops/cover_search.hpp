@@ -44,8 +44,8 @@ class CoverSearch {
   CoverSearch(const EarlyGraph& graph, const EdgeCocycles& cocycles, std::int64_t field,
               const RunContext& context);
 
-  /// Chooses the cocycles that count from now on, by their numbers, and the values that they must
-  /// have on a path.
+  /// Sets the cocycles that count from now on, given by their numbers, and the values that they
+  /// must have on a path.
   void set_target(std::span<const std::uint32_t> cocycles, std::span<const std::uint32_t> values);
 
   /// Finds a path from `from` to `to`, both included, that has the wanted values and is shorter

@@ -11,9 +11,9 @@
 
 namespace ph::detail {
 
-/// The first edges of a RipsGraph, which are the edges that exist when loops are born. The
-/// neighbours of each vertex are sorted by the order of their edges. This order also gives access
-/// to the graph at any earlier value.
+/// The edges of a RipsGraph up to the value at which the last loop is born. The neighbours of each
+/// vertex are sorted by the order of their edges. The neighbours at any earlier value are therefore
+/// the first ones in each list.
 class EarlyGraph {
  public:
   using Key = RipsGraph::Key;

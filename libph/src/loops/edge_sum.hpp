@@ -54,7 +54,8 @@ class EdgeSum {
 };
 
 /// Splits a closed walk wherever it returns to a vertex. No part passes a vertex twice, and all
-/// parts together are no longer than the walk. They are in the same order as the loops of EdgeSum.
+/// parts together are no longer than the walk. The parts are in the same order as the loops of
+/// EdgeSum.
 inline std::vector<Loop> parts_of(std::span<const std::uint32_t> walk, const EarlyGraph& graph,
                                   std::int64_t coefficient, std::int64_t field,
                                   const RunContext& context) {

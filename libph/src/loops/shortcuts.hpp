@@ -50,7 +50,8 @@ class Shortcuts {
     double value;
   };
 
-  /// Tries to remove or replace the vertex walk[i], which is between two other vertices.
+  /// Tries to remove or replace the vertex walk[i], which must be neither the first nor the last
+  /// vertex.
   Change change_at(Walk& walk, std::size_t i, const Around& around, StepBudget& budget) {
     const std::uint32_t first = walk[i - 1], middle = walk[i], last = walk[i + 1];
     const auto at = walk.begin() + static_cast<std::ptrdiff_t>(i);

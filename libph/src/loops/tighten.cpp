@@ -148,8 +148,8 @@ class Tightener {
 
   /// Computes the cocycles that bars need, but only for the bars that die early enough to keep the
   /// computation short.
-  /// @return the latest death among the bars that got their cocycles; -infinity if no bar got its
-  /// cocycle.
+  /// @return the latest death among the bars whose cocycles were computed; -infinity if there is no
+  /// such bar.
   double compute_cocycles(const std::vector<Candidate>& candidates, EdgeCocycles& cocycles) const {
     std::vector<Candidate> asking;  // sorted by birth
     for (const Candidate& c : candidates)

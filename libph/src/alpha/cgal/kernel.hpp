@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-// Only this folder includes CGAL. A program linked with it falls under the GPL.
+// Only this folder includes CGAL. A program that is linked with CGAL falls under the GPL.
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 
 #include <cstdint>

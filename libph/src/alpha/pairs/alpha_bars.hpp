@@ -53,8 +53,8 @@ class AlphaBars {
   void expect(std::size_t count) {
     if (!bars_.wants_cells() && !wants_cycles()) bars_.expect(some_.size() + count);
   }
-  /// Reserves memory for at most `most` more bars, but not for more bars than there are simplices
-  /// up to the threshold in `simplices`, which are sorted by value.
+  /// Reserves memory for `most` more bars, or for fewer if `simplices` has fewer simplices up to
+  /// the threshold. The simplices must be sorted by value.
   void expect(std::size_t most, const RankedSimplices& simplices) {
     const auto beyond = std::ranges::partition_point(simplices, [&](const Ranked& simplex) {
       return alpha_.to_value(simplex.value) <= alpha_.threshold();

@@ -34,8 +34,8 @@ struct Triangulation {
   RawVector<std::array<std::uint32_t, 4>> cells;  ///< vertices in ascending order, then kNone
   /// For each facet, its name in the cell on the other side, or kNone if there is no such cell.
   RawVector<std::array<std::uint32_t, 4>> across;
-  /// True if the vertices of a cell in ascending order have the opposite orientation to the other
-  /// cells (in dimensions 2 and 3).
+  /// In dimensions 2 and 3, the cells have a common orientation. For each cell, true if the
+  /// ascending order of its vertices has the opposite orientation.
   RawVector<std::uint8_t> is_reversed;
 };
 

@@ -19,7 +19,8 @@
 
 namespace ph::cubical {
 
-/// The root of a tree of arrows: a component that bridges may join with others.
+/// The root of a tree of arrows. It stands for a component that bridges may join with other
+/// components.
 struct SeamRoot {
   enum class Kind : std::uint32_t {
     outer,        ///< the root was always there and has no cell

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Writes a part of a cloud as bytes, and reads such bytes. The bytes contain the data of the cloud,
-// the numbers of the parts, and their points, edges and claims. When bytes are read, each number is
-// checked so that it does not point outside a list.
+// the numbers of the parts, and their points, edges and claims. When bytes are read, each number
+// that refers to a list is checked against the length of the list.
 #include <cmath>
 #include <string_view>
 #include <utility>

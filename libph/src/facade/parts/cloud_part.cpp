@@ -169,8 +169,8 @@ Rips CloudPart::rips(const RunContext& context) const& {
   return CloudPart(std::move(copy)).rips(context);
 }
 
-// A part leaves out an edge if other edges join the ends of this edge. If the part has only claimed
-// that these other edges are in the forest, the entire forest must fulfil the claim.
+// A part leaves out an edge if other edges join its ends. If the part has only claimed that these
+// other edges are in the forest, the entire forest must confirm the claim.
 void CloudPart::State::check_joined() const {
   const bool is_spanning =
       whole.limit < kInfinity ||

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Writes a part of an image as bytes, and reads such bytes. The bytes contain the data of the
 // image, the numbers of the parts, bars, and forests with their seams. When bytes are read, each
-// number is checked so that it does not point outside a list.
+// number that refers to a list is checked against the length of the list.
 #include <algorithm>
 #include <cstddef>
 #include <string_view>

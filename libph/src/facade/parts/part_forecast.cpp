@@ -73,8 +73,8 @@ class LayerSample {
   std::uint64_t layers_, layer_size_, width_;
 };
 
-/// The time per voxel, relative to the time of a voxel that is not near a minimum. It was measured
-/// on noise with three axes, where one voxel in seven is a minimum.
+/// The time per voxel, relative to the time per voxel if no minimum is near. It was measured on
+/// noise with three axes, where one voxel in seven is a minimum.
 double cost(double minima, bool loops) {
   constexpr double of_components = 20, of_loops = 300;
   return 1 + (loops ? of_loops : of_components) * minima;

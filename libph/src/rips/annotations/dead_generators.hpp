@@ -108,7 +108,7 @@ class DeadGenerators {
       // mutant: dead-bits
       bits::add(met.data() + other.begin, other.words.data(), other.words.size());
     }
-    /// Returns the value of a generator that has occurred, which may be zero, and resets it.
+    /// Returns the value of a generator that has occurred, and resets the value. It may be zero.
     Element take(Generator g) {
       if constexpr (kIsZ2)
         return true;

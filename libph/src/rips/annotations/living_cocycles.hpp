@@ -28,7 +28,7 @@ class LivingCocycles {
     ListId list;
   };
 
-  /// @param shared the arguments of the constructor of `Cochain::Shared` without the memory.
+  /// @param shared the arguments of the constructor of `Cochain::Shared`, except the memory.
   template <class... Arguments>
   LivingCocycles(std::size_t vertices, const RunContext& context, const Arguments&... shared)
       : context_(context),

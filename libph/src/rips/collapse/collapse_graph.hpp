@@ -30,7 +30,7 @@ using Neighbour = RipsAdjacency::Neighbour;
 inline constexpr Key kNever = RipsAdjacency::kNever;
 inline constexpr Vertex kNone = UINT32_MAX;
 
-/// A vertex that becomes a common neighbour.
+/// A vertex that becomes a common neighbour of the ends of an edge at a key.
 struct Arrival {
   Key key;
   Vertex vertex;

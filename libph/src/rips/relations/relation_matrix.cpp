@@ -17,8 +17,7 @@ struct Reduced {
   std::size_t added;
 };
 
-// Adds rows of a matrix to `row` until the first column of `row` is not the first column of any of
-// these rows.
+// Adds rows of a matrix to `row` until no row of the matrix has the same first column as `row`.
 // @param words the number of words per row, in complete cache lines. @param row_of for each column,
 // the row of which it is the first column. @param added receives the rows that were added.
 PH_FOR_EACH_TARGET

@@ -120,7 +120,7 @@ bool RelationSolver::solve_if_due() {
     if (!solve()) return false;
   } else {
     // This factor was found by measurement. If lists are turned into rows earlier, the rows are
-    // longer. If they are turned into rows later, more relations are checked in vain.
+    // longer. If they are turned into rows later, more relations are checked needlessly.
     if (5 * lists_->relations().dead_count() <= 4 * births_.size()) return true;
     const auto vectors = static_cast<double>(births_.size() + 2 * sum_count());
     if (vectors * static_cast<double>(living_) / 8 > most_bytes(memory_)) return true;

@@ -240,8 +240,9 @@ void LinkSurfaces<K>::kill_mismatched(Position position, const FlagEdge& e, Vert
 template <Field K>
 void LinkSurfaces<K>::correct_others(std::size_t dying, const FlagEdge& e, Vertex w,
                                      std::size_t words) {
-  // A multiple of a younger mismatched class is added to each other mismatched extension. The
-  // smallest such class is used, in its state before this step. Loops come before all classes.
+  // A multiple of a younger mismatched class is added to each other mismatched extension. Among the
+  // younger classes, the one with the smallest cocycle is used, as it was before this step. Loops
+  // come before all classes.
   auto& all = extensions_.all();
   partners_.assign(dying, dying);
   std::size_t partner = dying;

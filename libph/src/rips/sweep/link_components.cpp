@@ -82,7 +82,7 @@ bool LinkComponents::take_component(Vertex first) {
   clear(rest_.data(), first);
   bool is_left = bits::split(rest_.data(), graph_.row(first), component, 0, words);
   set(component, first);
-  // Usually only few vertices are left, and they are joined to one another. If one of them is
+  // Usually only a few vertices are left, and they are joined to one another. If one of them is
   // joined to the component, its neighbours are also joined to the component.
   for (bool grew = true; is_left && grew;) {
     grew = is_left = false;

@@ -49,7 +49,8 @@ class LinkPrimitives {
     bool is_active = true;       ///< true if the search continues, or if the loop is still valid
     bool is_obstructed = false;  ///< true if gamma has no primitive
     bool is_found = false;       ///< true if psi is a primitive
-    // The rows psi(z,.) and the additional value that an edge requires, while a vertex z is added.
+    // While a vertex z is added: the row psi(z,.), and the row of the values that an edge requires
+    // in addition.
     typename RowPool<K>::Id potential = 0, mismatch = 0;
     bool is_flat = true, is_mismatched = false;
   };
@@ -77,11 +78,11 @@ class LinkPrimitives {
 
   /// Finds all primitives and loops, in the order of a cover of the link.
   void search(const LinkCover& cover);
-  /// Looks for primitives of the obstructed classes without the loops so far, in the order of the
-  /// filtration, with ascending vertices. At the first triangle z > y > w where some searches are
-  /// mismatched, calls `on_obstruction(search, z, y, w)` for the mismatched search with the largest
-  /// generator. Then calls `on_add(search, obstructed, scale)` for each of the other mismatched
-  /// searches. After this addition, these searches have no mismatch.
+  /// Drops the loops. Then looks again for primitives of the obstructed classes, in the order of
+  /// the filtration, with ascending vertices. At the first triangle z > y > w where some searches
+  /// are mismatched, calls `on_obstruction(search, z, y, w)` for the mismatched search with the
+  /// largest generator. Then calls `on_add(search, obstructed, scale)` for each of the other
+  /// mismatched searches. After this addition, these searches have no mismatch.
   template <class OnObstruction, class OnAdd>
   void search_in_order(OnObstruction&& on_obstruction, OnAdd&& on_add);
 
