@@ -24,7 +24,7 @@ constexpr double kBytesOfVoxel = 8;
 
 bool has_few_axes(const CubicalImage& grid) { return GridShape::count_axes(grid) <= 3; }
 
-/// Below this size, slabs save no memory.
+/// True if the image can be cut into slabs and is so large that slabs save memory.
 bool may_be_cut(const CubicalImage& grid) {
   constexpr std::size_t few = 1 << 18;  // voxels
   return LayeredImage::can_cut(grid) && grid.size() >= few;

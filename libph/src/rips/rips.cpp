@@ -85,8 +85,8 @@ struct VertexChoice {
   std::optional<double> covering_radius;
 };
 
-/// A form together with its own context, because the context of the call may end before the form
-/// ends.
+/// A form together with its own context, because the context of the call may be destroyed before
+/// the form.
 struct MadeForm {
   /// @param counts the context that counts the memory of the form; it must outlive the form. @param
   /// call the context of the call that makes the form.

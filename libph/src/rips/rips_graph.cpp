@@ -78,7 +78,7 @@ RipsGraph RipsGraph::of_edges(Index size, std::span<const WeightedEdge> edges,
                               const VertexWeights& weights) {
   check_arguments(size, threshold);
   const double limit = threshold.value_or(kNoLimit);
-  // An infinite distance is not an edge.
+  // A pair at an infinite distance is not an edge.
   // mutant: rips-sparse-threshold
   const double last = std::min(limit, std::numeric_limits<double>::max());
   const auto value_of = [&](const WeightedEdge& e) {

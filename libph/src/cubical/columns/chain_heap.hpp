@@ -12,9 +12,9 @@
 namespace ph::cubical {
 
 /// A chain as a heap, youngest cell first. A cell may occur several times. When chains are added,
-/// most terms cancel. Terms far older than the youngest cell, however, would stay until they reach
-/// the top. The heap is therefore consolidated whenever it has grown to three times its
-/// consolidated size.
+/// most terms cancel. However, equal cells are found only at the top of the heap, so terms far
+/// older than the youngest cell would stay for a long time. The heap is therefore consolidated
+/// whenever it has grown to three times its consolidated size.
 /// @tparam Term an Entry. @tparam precedes true if its first argument is older than the second. It
 /// should be branchless, because processors cannot predict the result.
 template <Field K, class Term, auto precedes>

@@ -10,8 +10,8 @@
 namespace ph::cubical {
 
 // These functions express the graph of H0 in terms of vertices and edges of the input. In the
-// V-construction, they are voxels and the edges between voxels. In the T-construction, they are top
-// cells and facets of the stars' grid (GridFrame), where all axes run backwards.
+// V-construction, these are voxels and the edges between voxels. In the T-construction, these are
+// top cells and facets of the stars' grid (GridFrame), where all axes run backwards.
 
 /// A step along an arrow.
 struct ForestStep {

@@ -11,9 +11,9 @@
 
 namespace ph {
 
-/// Operations on functions from vertices to a field. A function is an array of units that the
-/// caller owns, in blocks of 64 vertices. Masks are rows of bits. Each operation takes the number
-/// of blocks to process.
+/// Operations on functions from vertices to a field. A function is an array that the caller owns,
+/// in blocks of 64 vertices. Its units are field elements, or words of 64 values over Z/2. Masks
+/// are rows of bits. Each operation takes the number of blocks to process.
 template <Field K>
 struct VertexFunction {
   using Unit = typename K::Element;

@@ -84,12 +84,12 @@ class NodePairQueue {
   static constexpr int kPartBits = 5;
   static constexpr std::size_t kParts = 1 << kPartBits;
   using Bins = std::pmr::vector<Pairs>;
-  /// Bins of equal width. Each bin contains the distances that share their first digits.
+  /// Bins of equal width. All distances in a bin have the same leading binary digits.
   struct Level {
     std::uint64_t first;  // the leading digits of the distances in bin 0
     int shift;
     Bins bins;
-    std::size_t next = 0;  // the open bin is the bin before it
+    std::size_t next = 0;  // the bin to open next; the bin before it is open
   };
 
   /// The bits of a distance. As integers, these bits have the same order as the distances.

@@ -9,9 +9,9 @@
 /// classes implement it, RowGraph and ListGraph; `EdgeCollapse` in edge_collapse.cpp is a template
 /// over them.
 ///
-/// Keys represent values: an edge is taken to enter at the key of the last edge that has the same
-/// value. A vertex or an edge is present if it has entered by key `now`, which is never less than
-/// the key of the current edge.
+/// Keys represent values: an edge is considered to enter at the key of the last edge that has the
+/// same value. A vertex or an edge is present if it has entered by key `now`, which is never less
+/// than the key of the current edge.
 ///
 ///   Set                           a set of vertices, made by make_set()
 ///   enter_until(key)              edges up to that key enter; called before everything else

@@ -135,7 +135,7 @@ bool RelationSolver::solve() {
   for (std::size_t i = 0; i < killed.size(); ++i)
     if (killed[i] != RelationMatrix::kNone) report_death(killed[i], deaths_[i]);
   deaths_.clear();
-  // The number of additions per row; with more additions, substitution is worthwhile.
+  // The number of additions per row above which substitution is worthwhile.
   constexpr std::size_t many = 4;
   if (rows_->matrix().additions() > many * births_.size()) make_rows();
   return living_ != before;
@@ -145,7 +145,7 @@ void RelationSolver::make_rows() {
   const std::size_t sums = sum_count(), generators = births_.size();
   const std::size_t words = SumRows::words_for(living_);
   std::pmr::vector<SumRows::Word> rows(kept_);
-  // This leaves room for about as many sums to come.
+  // The reserve leaves room for about as many new sums.
   rows.reserve(2 * sums * words);
   rows.resize(sums * words, 0);
   {
