@@ -13,10 +13,10 @@ namespace ph::detail {
 /// then made at once, because the engine needs them anyway.
 RunPlan plan_rips(const Rips& rips, const Options& options, const RunContext& context);
 /// The form that can be planned without edges. Nothing if the plan depends on the edges or the form
-/// consists of edges. @throws Error (usage) as `plan`.
+/// consists of edges. @throws Error (usage) as `plan` does.
 std::optional<RipsForm> form_without_edges(const Rips& rips, const Options& options);
 /// The plan as far as it is known without edges. It does not include a collapse.
-/// @throws Error (usage) as `plan`.
+/// @throws Error (usage) as `plan` does.
 RunPlan plan_without_edges(const Rips& rips, const Options& options);
 /// Does the same as `build` and `run`, for Rips filtrations.
 void build_rips(const Rips& rips, const RunPlan& plan, const RunContext& context);

@@ -37,7 +37,7 @@ struct ChosenVertices {
 void check_options(const RipsData& data, const RipsOptions& options, const RunContext& context);
 
 /// Makes a form of the filtration. Precondition: check_options has passed.
-/// @throws Error as Rips::graph.
+/// @throws Error as Rips::graph does.
 RipsGraph make_graph(const RipsData& data, const RipsOptions& options, RipsForm form,
                      const ChosenVertices& chosen, const RunContext& context);
 

@@ -126,8 +126,8 @@ const CriticalFacet* critical_facet(const AlphaCells& cells, std::uint32_t code)
 
 class Frames;
 
-/// Finds the values and the intervals of a triangulation of dimension 3, whose edges must be
-/// numbered already. The second function does the same in dimensions 1 and 2.
+/// Finds the values and the intervals of a triangulation of dimension 3, whose edges must already
+/// be numbered. The second function does the same in dimensions 1 and 2.
 void find_intervals_of_space(AlphaCells& cells, const Frames& frames, const RunContext& context);
 void find_intervals_of_plane(AlphaCells& cells, const Frames& frames, const RunContext& context);
 

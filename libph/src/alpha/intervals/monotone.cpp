@@ -84,8 +84,8 @@ class PlaneRepair {
   bool is_changed_ = false;
 };
 
-/// Repairs the values in dimension 3, where raising an interval leads to a check of its cofaces
-/// only.
+/// Repairs the values in dimension 3, where only the cofaces of a raised interval are checked
+/// again.
 class SpaceRepair {
  public:
   SpaceRepair(AlphaCells& cells, const Frames& frames, const RunContext& context)

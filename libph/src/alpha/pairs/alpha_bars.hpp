@@ -98,8 +98,8 @@ class AlphaBars {
   }
 
  private:
-  /// Appends the input points of a simplex in ascending order. @return true if sorting them took an
-  /// odd permutation.
+  /// Appends the input points of a simplex in ascending order. @return true if the permutation that
+  /// sorts them is odd.
   bool append(const Simplex& simplex, std::vector<Index>& numbers) const {
     const std::size_t begin = numbers.size();
     bool is_odd = false;

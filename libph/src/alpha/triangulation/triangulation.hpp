@@ -42,7 +42,7 @@ struct Triangulation {
 /// Triangulates the sites. @throws Error (resource, cancelled).
 Triangulation triangulate(const Sites& sites, const RunContext& context);
 
-/// Removes the sites that belong to no cell, which exist only if sites have weights.
+/// Removes the sites that belong to no cell. Such sites exist only if sites have weights.
 /// @param hidden receives the corresponding points of the input.
 void remove_hidden(Sites& sites, Triangulation& triangulation,
                    std::pmr::vector<std::uint32_t>& hidden);

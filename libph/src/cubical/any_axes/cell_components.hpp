@@ -42,7 +42,7 @@ class CellComponents {
   // The number of the node that contains these coordinates; the two parts of the outside come last.
   std::uint32_t number(const CellGrid::Coordinates& x) const;
   std::uint32_t cell_of(std::uint32_t number) const;
-  /// The node to which `steps` steps lead in a direction from a cell. Two steps lead from a node to
+  /// The node that is `steps` steps away from a cell in a direction. Two steps lead from a node to
   /// the next node; one step leads from a bridge to a node.
   std::uint32_t beyond(std::uint32_t cell, const CellGrid::Coordinates& x, int direction,
                        int steps) const;

@@ -18,7 +18,7 @@ struct Representation {
   VoxelRange voxels;
 };
 
-/// Turns pairs of cells of the stars' grid into bars of the input, as PairSink does, and asks for
+/// Turns pairs of cells of the stars' grid into bars of the input, as PairSink does, and requests
 /// the representatives of the bars that are kept.
 template <Field K>
 class RepresentedPairs {

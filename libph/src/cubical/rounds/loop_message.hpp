@@ -93,7 +93,7 @@ class LoopMessage {
   std::vector<Column> columns;
 
   /// @param voxels the number of voxels of the entire grid. @param memory allocates the columns.
-  /// @throws Error (bad_data) on bytes that Writer did not make, or that are for another part.
+  /// @throws Error (bad_data) if the bytes were not made by Writer, or are for another part.
   LoopMessage(std::span<const std::byte> bytes, const K& field, std::uint64_t image, int to,
               int parts, std::uint64_t voxels, std::pmr::memory_resource* memory)
       : field_(field), voxels_(voxels), from_(bytes, "loops of another part") {

@@ -50,8 +50,9 @@ void pair_in_slabs(Slabs& slabs, const K& field, const BarRequest& wanted,
                    {.vertices = loops || wants_vertices(shape, wanted),
                     .tops = loops || wants_top_cells(shape, wanted)},
                    context);
-  // Loops may use half of the remaining memory. They are abandoned before the slabs and the other
-  // bars run out of memory. The columns of loops would take more memory than the slabs.
+  // Loops are abandoned if they need more than half of the remaining memory. The slabs and the
+  // other bars then do not run out of memory. The columns of loops would take more memory than the
+  // slabs.
   const std::size_t reserve = context.memory.left() / 2;
   bool too_many_loops = false;
 

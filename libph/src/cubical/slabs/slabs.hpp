@@ -114,7 +114,7 @@ class Slabs {
     return slab + 1 == count() ? image_.extent() : ghosts_before() + (slab + 1) * layers_ + 1;
   }
   // The voxels of a slab. At the ends of a ring, neighbouring layers are not adjacent in memory. A
-  // slab at the ends is therefore copied.
+  // slab that spans such an end is therefore copied.
   CubicalImage voxels(std::uint64_t slab) {
     const bool goes_before = is_first_of_ring(slab), goes_after = is_last_of_ring(slab);
     if (!goes_before && !goes_after) return image_.layers(begin(slab), end(slab));

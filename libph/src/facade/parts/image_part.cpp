@@ -225,7 +225,7 @@ void ImagePart::join(ImagePart next, const RunContext& context) {
                 fmt::format("parts of an image: found part {} after part {}, expected part {}",
                             next.first() + 1, last() + 1, last() + 2));
   context.poll();
-  // In the T-construction, parts are ordered the other way round. The next part comes before this
+  // In the T-construction, the order of the parts is reversed: the next part comes before this
   // part.
   const bool come_before = state_->shape.is_t_construction();  // mutant: part-turned
   const cubical::BarSink sink = state_->sink(state_->bars);

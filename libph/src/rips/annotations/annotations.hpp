@@ -147,8 +147,8 @@ class Annotations {
   /// Makes a class zero: its youngest generator dies and becomes a combination of the others.
   void kill(Class relation);
 
-  /// Calls `visit(edge, value)` for the edges on which a living generator is not zero. Together
-  /// these edges and values are a cocycle.
+  /// Calls `visit(edge, value)` for the edges on which a living generator is not zero. These values
+  /// form a cocycle.
   template <class Visit>
   void for_each_value(Generator g, Visit&& visit);
 

@@ -64,8 +64,8 @@ class DeadGenerators {
     std::uint32_t bits = kNone;  // index into bits_
     std::uint32_t seen = 0;      // number of deaths already substituted in it
   };
-  /// A vector over Z/2 with many terms, stored as one bit per generator. This form is faster to
-  /// add.
+  /// A vector over Z/2 with many terms, stored as one bit per generator. Vectors in this form are
+  /// faster to add.
   struct Bits {
     using allocator_type = std::pmr::polymorphic_allocator<>;
     explicit Bits(allocator_type allocator) : words(allocator) {}

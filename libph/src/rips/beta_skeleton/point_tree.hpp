@@ -76,7 +76,7 @@ struct Squares {
 inline constexpr double kBeyondTies = 1e-12;
 
 /// Points of R^D in a k-d tree. Searches start at the smallest node whose cell contains the ball to
-/// be searched. The cell of a node is a part of space that contains no points outside the node.
+/// be searched. The cell of a node is a region of space in which all points belong to the node.
 template <int D>
 class PointTree {
  public:

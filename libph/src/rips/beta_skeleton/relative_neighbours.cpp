@@ -18,8 +18,8 @@ class Finder {
   Finder(const PointTree<D>& tree, double limit, const RunContext& context)
       : tree_(tree), lenses_(tree), limit_(limit), context_(context) {}
 
-  /// Handles a pair of nodes. The pair is dropped, its points are examined, or it is replaced by
-  /// pairs of children.
+  /// Handles a pair of nodes: drops the pair, examines its points, or replaces it by pairs of
+  /// children.
   template <class Push>
   void open(NodePair pair, Push&& push, std::pmr::vector<FoundEdge>& found) {
     const auto [a, b] = pair;

@@ -21,8 +21,8 @@ class SplitLenses<D>::Opener {
         classes_(of.classes_),
         context_(of.context_) {}
 
-  /// Handles a pair of nodes. The pair is dropped, its points are examined, or it is replaced by
-  /// pairs of children.
+  /// Handles a pair of nodes: drops the pair, examines its points, or replaces it by pairs of
+  /// children.
   void open(NodePair pair, Found& found) {
     const auto [a, b] = pair;
     if (a == b) {

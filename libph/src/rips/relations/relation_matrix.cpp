@@ -108,8 +108,9 @@ void RelationMatrix::transpose(const Word* relations, std::size_t words) {
 }
 
 void RelationMatrix::substitute(Word* vectors, std::size_t words) const {
-  // The reduced row of a living generator is zero. It is the sum of its original row and other
-  // rows. The vector of the generator is added to the vectors of these other rows.
+  // The reduced row of a living generator is zero, and is the sum of the original row and other
+  // rows. The vector of the generator is added to the vectors of the generators of these other
+  // rows.
   for (std::size_t s = steps_.size(); s-- > 0;)
     for (std::size_t i = steps_[s].begin; i < end_of(s); ++i)
       // mutant: relation-dead

@@ -205,7 +205,7 @@ void LinkSurfaces<K>::kill_mismatched(Position position, const FlagEdge& e, Vert
   const std::size_t words = LinkForest::words_to(y);
   auto& all = extensions_.all();
   for (Vertex from = 0;;) {
-    // The first tetrahedron across which some class does not extend kills the youngest of these
+    // The first tetrahedron across which some classes do not extend kills the youngest of these
     // classes.
     std::size_t first = bits::kNone;
     for (const Extension& x : all)

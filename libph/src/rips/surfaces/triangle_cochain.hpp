@@ -130,8 +130,8 @@ class TriangleCochain {
   template <class OnEnter>
   void add_star_to_rows(Vertex u, Vertex v, const Unit* star, Shared& shared, OnEnter&& on_enter);
   void drop_zero_rows(Shared& shared);
-  /// Calls `visit(a)` for the vertices of its triangles and possibly for some other vertices, in
-  /// ascending order.
+  /// Calls `visit(a)` for the vertices of the cochain's triangles and possibly for some other
+  /// vertices, in ascending order.
   template <class Visit>
   void for_each_vertex(Visit&& visit) const;
   /// Calls `visit(a, b, row id)` for a < b.

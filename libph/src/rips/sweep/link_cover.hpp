@@ -48,8 +48,8 @@ class LinkCover {
   Vertex find_hub(const Word* set, Vertex first);
   /// Covers the component of a hub. @return true if a part of the set is left in rest_.
   bool cover(const Word* set, Vertex hub);
-  /// Appends a step. @return the row of the step, which is set to the neighbours of its vertex in a
-  /// set.
+  /// Appends a step. @return the row of the step, which receives the neighbours of the vertex in
+  /// `set`.
   Word* add_step(const Step& step, const Word* set);
 
   LinkGraph& graph_;

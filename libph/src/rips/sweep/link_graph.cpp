@@ -168,7 +168,7 @@ LinkGraph::Link LinkGraph::find_link_in_rows(const FlagEdge& e, bool wants_graph
 
 LinkGraph::Link LinkGraph::find_link_in_lists(const FlagEdge& e, bool wants_graph) {
   for (const Vertex v : vertices_) local_[v] = kNone;
-  // Marks take three passes but no branches. Merging two sorted lists would take branches that
+  // Marks need three passes but no branches. Merging two sorted lists would need branches that
   // cannot be predicted.
   constexpr std::uint8_t of_one = 1, of_both = 2;
   std::size_t count = 0;
