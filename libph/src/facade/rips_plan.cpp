@@ -68,7 +68,7 @@ bool is_forest_alone(const Rips& rips) {
 }
 
 /// The highest dimension to compute.
-/// @throws Error (usage) on options that check refuses. Also throws if no highest dimension was
+/// @throws Error (usage) if `check` refuses the options. Also throws if no highest dimension was
 /// given and the lowest dimension is above the highest dimension, or if the highest dimension is
 /// above 0 and only a spanning forest is available.
 int max_dim_of(const Rips& rips, const Options& options) {

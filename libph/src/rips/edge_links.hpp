@@ -14,8 +14,8 @@
 namespace ph {
 
 /// Computes H0 to H3 of Vietoris-Rips filtrations by the sweep of edge links (see
-/// edge_link_sweep.hpp). The engine stores the living classes and the graph, which is stored as n^2
-/// bits or as lists. It stores no columns of triangles or tetrahedra.
+/// edge_link_sweep.hpp). The engine stores the living classes, and stores the graph as n^2 bits or
+/// as lists. It stores no columns of triangles or tetrahedra.
 struct EdgeLinkEngine {
   static constexpr Engine id = Engine::edge_links;
   template <Filtration F>

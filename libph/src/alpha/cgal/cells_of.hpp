@@ -10,8 +10,7 @@
 
 namespace ph::alpha {
 
-/// Inserts all sites. The search for the place of a site starts near the site that was inserted
-/// before it.
+/// Inserts all sites. The search for the place of a site starts near the previously inserted site.
 /// @param insert inserts one site: it is called with the site and a place at which the search
 /// starts, and returns the place at which the search for the next site starts.
 /// @param bytes returns the number of bytes that CGAL holds. These bytes must be claimed, because

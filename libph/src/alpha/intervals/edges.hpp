@@ -66,7 +66,7 @@ struct NumberedEdges {
 
 /// Numbers the edges of n cells in O(n log n). Uses threads.
 /// @param images the images of the sites if the space is periodic, otherwise null. The function
-/// stores the frames of the edges in them.
+/// stores the frames of the edges in these images.
 NumberedEdges number_edges(const Triangulation& triangulation, std::size_t sites, Images* images,
                            const RunContext& context);
 

@@ -112,7 +112,7 @@ struct AlphaCells {
 /// threads.
 /// @param period the length of the space along each axis, or empty if no axis is periodic. A length
 /// of 0 means that the axis is not periodic.
-/// @throws Error as sites_of and fold_points throw it; Error (resource, cancelled).
+/// @throws Error as sites_of and fold_points do; Error (resource, cancelled).
 AlphaCells alpha_cells(PointsView points, std::span<const double> weights,
                        std::span<const double> period, const RunContext& context);
 

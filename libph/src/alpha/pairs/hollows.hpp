@@ -15,7 +15,7 @@ namespace ph::alpha {
 /// with a facet is joined from the start to the cell across that facet. A facet that joins two
 /// components gives birth to a class, and the oldest cell of the younger component kills the class.
 ///
-/// If no facet leads outside, because a periodic space closes up in all its dimensions, the last
+/// If no facet leads outside, because the triangulation is periodic in all its dimensions, the last
 /// cell that enters gives birth to a class of the top dimension. The engine computes no cycles in
 /// periodic spaces.
 template <Field K>

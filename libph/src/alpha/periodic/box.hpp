@@ -35,7 +35,7 @@ struct Folded {
 
 /// Reduces the coordinates along closed axes modulo the periods. Coordinates and periods are first
 /// rounded to multiples of a power of two, which changes them by at most 2^-51 of the size of the
-/// box. After that, adding entire periods needs no rounding. Numbers that already are such
+/// box. After that, adding entire periods needs no rounding. Numbers that are already such
 /// multiples do not change. Coordinates along open axes do not change.
 /// @param period the period of each axis; 0 if the axis is open. At least one axis is closed.
 /// @throws Error (usage) unless there is one period per axis, and none of them is negative or

@@ -7,16 +7,16 @@ namespace ph::alpha {
 
 /// Turns the triangulation of sites and images into a triangulation of the periodic space. It keeps
 /// one cell of each class of translates, and glues two cells together if translates of them are
-/// neighbours. The vertices of the result are sites; a cell may have a site several times, and
-/// `images.of_cell` receives the places of its vertices.
+/// neighbours. The vertices of the result are sites; a cell may contain the same site several
+/// times, and `images.of_cell` receives the places of its vertices.
 ///
 /// Returns true if the result is the Delaunay triangulation of the periodic space, and false if
 /// there were too few images around the box. The result is this triangulation under the following
 /// conditions, all of which are checked or always true:
 /// - On either side of a facet there is a cell that is a translate of a kept cell, and the two
-///   cells name each other. The only exceptions are facets whose plane contains the directions of
-///   all closed axes, with all images on one side of the plane. Unrolled, the cells therefore cover
-///   the space the same number of times everywhere.
+///   cells name each other as neighbours. The only exceptions are facets whose plane contains the
+///   directions of all closed axes, with all images on one side of the plane. Unrolled, the cells
+///   therefore cover the space the same number of times everywhere.
 /// - At one of the sites, the kept cells are the cells around it in the unrolled triangulation,
 ///   which cover its surroundings once.
 /// - Two cells that share a facet are neighbours in a Delaunay triangulation. A triangulation that
@@ -28,7 +28,7 @@ bool take_quotient(Triangulation& triangulation, Images& images, const Box& box,
 
 /// A triangulation of a periodic space with any number of sites.
 struct PeriodicTriangulation {
-  Triangulation triangulation;  ///< vertices are sites; a cell may have a site several times
+  Triangulation triangulation;  ///< vertices are sites, which may recur in a cell
   Images images;                ///< including the frames of the cells
 };
 

@@ -14,8 +14,8 @@ std::array<double, 3> coordinates(const Vector<double>& p) { return {p.x, p.y, p
 
 /// A margin that is likely to be enough if the sites are uniformly distributed. In the interior,
 /// the margin is the radius of the largest empty sphere plus the usual size of a cell. Near the end
-/// of an open axis, only a cap of an empty sphere is among the sites. The flatter this cap is, the
-/// wider it is, up to the diagonal of the box along its closed axes.
+/// of an open axis, only a cap of an empty sphere lies in the region of the sites. The flatter this
+/// cap is, the wider it is, up to the diagonal of the box along its closed axes.
 class LikelyMargin {
  public:
   LikelyMargin(const Sites& sites, const Box& box) : box_(box) {

@@ -10,7 +10,7 @@ namespace ph::alpha {
 /// The squared radius of the smallest sphere through two, three or four points. With weights, the
 /// sphere is orthogonal to the points instead: the squared radius is |z - p|² - w for each point,
 /// where z is the centre.
-/// @tparam T a field type with more than double precision.
+/// @tparam T a number type with more than double precision.
 template <class T>
 T squared_radius(std::span<const Vector<T>> points, std::span<const T> weights) {
   const Vector<T>& origin = points.back();

@@ -21,9 +21,9 @@ namespace ph::alpha {
 /// order in each cell, and the positions of vertices determine the signs in boundaries.
 ///
 /// In a periodic space, the triangulation is a Delta-complex. A cell may have the same vertex
-/// several times, but it has each other face only once. Different faces may have the same vertices.
-/// Equal vertices are sorted by their places (periodic/images.hpp), and their order is also the
-/// same in each cell.
+/// several times, but each of its other faces only once. Different faces may have the same
+/// vertices. Equal vertices are sorted by their places (periodic/images.hpp), and their order is
+/// also the same in each cell.
 struct Triangulation {
   explicit Triangulation(std::pmr::memory_resource* memory)
       : cells(memory), across(memory), is_reversed(memory) {}

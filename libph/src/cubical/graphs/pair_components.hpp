@@ -40,7 +40,7 @@ class ComponentPairing {
 
   /// An upper bound for the number of bars that `run` finds.
   std::size_t most_pairs() const { return std::min(bridges_.order.size(), roots_.size()) + 2; }
-  /// Joins components, and removes the bridges that join components from the order.
+  /// Joins components, and removes the bridges that join them from the order of the bridges.
   /// @param on_merge called with (bridge, root that dies); the root is null if both components were
   /// always there.
   /// @param on_survivor called with each root that never dies.

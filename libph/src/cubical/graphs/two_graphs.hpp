@@ -23,9 +23,9 @@ inline bool wants_loops(const GridShape& grid, const BarRequest& wanted) {
 inline bool wants_lowest(const GridShape& grid, const BarRequest& wanted) {
   return lowest_dim(grid, wanted) <= 0 || grid.top_dim() < 3;
 }
-/// True if bars are wanted from the graph of voxels. It gives H0 in the V-construction, and the
-/// second highest and the highest dimension in the T-construction. With one axis, this graph gives
-/// all bars.
+/// True if bars are wanted from the graph of voxels. This graph gives H0 in the V-construction, and
+/// the second highest and the highest dimension in the T-construction. With one axis, it gives all
+/// bars.
 inline bool wants_vertices(const GridShape& grid, const BarRequest& wanted) {
   if (grid.top_dim() < 2) return true;
   return grid.is_t_construction() ? wanted.max_dim > 0 : wants_lowest(grid, wanted);

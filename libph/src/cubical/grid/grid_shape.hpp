@@ -13,8 +13,8 @@ namespace ph::cubical {
 
 /// The axes of an image of any size in the stars' grid (GridFrame). Axes with one voxel are left
 /// out. `PairSink` adds the bars that are missing because a periodic axis is left out. If at most
-/// three axes are left, they count as the last of three axes, which fixes the numbers of directions
-/// in stars.
+/// three axes are left, they count as the last of three axes. Directions in stars therefore have
+/// the same numbers for one, two and three axes.
 class GridShape {
  public:
   static constexpr int kMostAxes = 8;

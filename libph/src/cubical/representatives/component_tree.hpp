@@ -57,9 +57,8 @@ class ComponentTree {
   /// The merges in the order in which they happen.
   std::span<const Merge> merges() const { return merges_; }
 
-  /// The component that contains an item at the moment when the item enters. It is the first
-  /// component on the way up from the component of the basin that does not die before the item
-  /// enters.
+  /// The component that contains an item at the moment when the item enters. On the way up from the
+  /// component of the basin, it is the first component that does not die before the item enters.
   std::uint32_t holder(std::uint32_t basin, double value, std::uint32_t voxel,
                        Before before) const {
     const auto holds = [&](std::uint32_t b) {

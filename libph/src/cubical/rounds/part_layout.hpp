@@ -9,10 +9,10 @@
 
 namespace ph::cubical {
 
-/// Describes which layers of a grid each part of the grid has. The n layers of the slowest axis are
-/// counted as in the input. Unless the first layers of the parts are given, part p has the layers
-/// from n · p / parts up to n · (p + 1) / parts. All layers and voxels in this class are counted as
-/// in the stars' grid (GridFrame), which counts from the other end in the T-construction.
+/// Describes which layers of a grid each part of the grid has. Unless the first layers of the parts
+/// are given, part p has the layers from n · p / parts up to n · (p + 1) / parts of the n layers
+/// along the slowest axis of the input. The functions of this class count layers and voxels as in
+/// the stars' grid (GridFrame), that is, from the other end in the T-construction.
 class PartLayout {
  public:
   /// Consecutive layers.

@@ -72,9 +72,9 @@ class Lenses {
     return w != e.u && w != e.v && precedes(w, e.u, e) && precedes(w, e.v, e);
   }
 
-  /// The squared radius of a ball around the computed middle of an edge that contains its lens. The
-  /// reason is that a point at distance at most |uv| from both ends is within sqrt(3/4) |uv| of the
-  /// middle.
+  /// The squared radius of a ball that contains the lens of an edge and has its centre at the
+  /// computed middle of the edge. A point at distance at most |uv| from both ends is within
+  /// sqrt(3/4) |uv| of the true middle.
   double reach(double square) const {
     // mutant: beta-lens-radius
     const double radius = std::sqrt(0.75 * square) * (1 + 1e-9) + tree_.midpoint_error();

@@ -39,9 +39,9 @@ bool is_in_spindle(const double* p, const double* u, const double* v, double squ
 }
 
 /// True if p is certainly in the spindle of all pairs of a point in one ball and a point in
-/// another. By the first test, |up| |vp| >= 1e-7 |uv|^2. A margin of 1e-6 in the angle therefore
-/// corresponds to 5e-14 |uv|^2 in the proof. This is more than the 3 e |uv|^2 that the proof needs.
-/// This margin also exceeds the rounding error of acos.
+/// another. By the first test in the function, |up| |vp| >= 1e-7 |uv|^2. A margin of 1e-6 in the
+/// angle therefore corresponds to 5e-14 |uv|^2 in the proof. This is more than the 3 e |uv|^2 that
+/// the proof needs. This margin also exceeds the rounding error of acos.
 template <int D>
 bool is_in_spindles(const double* p, const double* centre_u, double radius_u,
                     const double* centre_v, double radius_v, double distance) {

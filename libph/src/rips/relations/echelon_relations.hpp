@@ -11,11 +11,11 @@
 namespace ph {
 
 /// Receives relations between generators over Z/2, one after another, and finds the generator that
-/// each relation kills. This is the youngest generator that is left after the generators that died
-/// before have been substituted. No two stored relations have the same youngest generator. If a new
-/// relation has the same youngest generator as a stored relation, the relation with fewer terms is
-/// kept and added to the other relation (Bauer, Masood, Giunti, Houry, Kerber, Rathod, Keeping it
-/// sparse: computing persistent homology revisited).
+/// each relation kills. It is the youngest generator that is left after all generators that died
+/// earlier have been substituted. No two stored relations have the same youngest generator. If a
+/// new relation has the same youngest generator as a stored relation, the relation with fewer terms
+/// is kept and added to the other relation (Bauer, Masood, Giunti, Houry, Kerber, Rathod, Keeping
+/// it sparse: computing persistent homology revisited).
 class EchelonRelations {
  public:
   using Generator = std::uint32_t;  ///< numbered by birth: the youngest has the largest number

@@ -11,8 +11,8 @@
 namespace ph {
 
 /// Receives relations between generators over Z/2, one after another, and finds the generator that
-/// each relation kills. This is the youngest generator that is left after the generators that died
-/// before have been substituted.
+/// each relation kills. It is the youngest generator that is left after all generators that died
+/// earlier have been substituted.
 ///
 /// The matrix has a row for each generator, from the oldest to the youngest, and a column for each
 /// relation. Rows are reduced one after another, the youngest first. Younger rows are added to a

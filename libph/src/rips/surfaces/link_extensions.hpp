@@ -68,9 +68,9 @@ class LinkExtensions {
   void clear();
   void remove(Extension* x);
 
-  /// Finds the classes whose gamma is not zero on the link, and their potentials. Before the first
-  /// of these classes, calls `prepare` to get a cover of the link. @return true if some classes
-  /// have no potential. The potentials and mismatches of these classes are zero.
+  /// Finds the classes whose gamma is not zero on the link, and their potentials. Before it handles
+  /// the first of these classes, calls `prepare` to get a cover of the link. @return true if some
+  /// classes have no potential. The potentials and mismatches of these classes are zero.
   template <class Prepare>
   bool find(const FlagEdge& e, Prepare&& prepare);
   /// Computes gamma again for obstructed classes after cocycles have changed.

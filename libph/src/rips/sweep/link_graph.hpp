@@ -23,12 +23,12 @@ enum class LinkLayout {
   lists,      ///< the neighbours of each vertex, with two or four bytes per end of an edge
 };
 
-/// Stores the edges so far of a flag filtration, and the link of a new edge. The link consists of
-/// the common neighbours of the two ends of the edge. The graph on the link is stored as rows of
-/// bits. In that graph, vertices have local numbers, in the same order as their global numbers.
-/// With the layout `lists`, the vertices of the link are numbered 0, 1, …, and a row usually takes
-/// one or two words. With the layout `rows`, local and global numbers are the same, and nothing is
-/// copied.
+/// Stores the edges of a flag filtration that have entered so far, and the link of a new edge. The
+/// link consists of the common neighbours of the two ends of the edge. The graph on the link is
+/// stored as rows of bits. In that graph, vertices have local numbers, in the same order as their
+/// global numbers. With the layout `lists`, the vertices of the link are numbered 0, 1, …, and a
+/// row usually takes one or two words. With the layout `rows`, local and global numbers are the
+/// same, and nothing is copied.
 class LinkGraph {
  public:
   using Vertex = std::uint32_t;
