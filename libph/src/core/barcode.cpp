@@ -90,13 +90,13 @@ InputChain Barcode::representative(std::size_t i) const {
   return {kind_, numbers_of(chain.numbers), std::span(coefficients_).subspan(begin, end - begin)};
 }
 
-// Without cells, equal bars are interchangeable: each run of equal births can be sorted by death in
-// place.
+// Without cells, equal bars are interchangeable. Each run of equal births can therefore be sorted
+// by death in place.
 void Barcode::sort_values(const RunContext& context) {
   std::pmr::vector<Bar> buffer(&context.memory);  // the buffer takes memory only if it is used
   const auto sort_by = [&](std::span<Bar> bars, auto&& value_of) {
     if (std::ranges::is_sorted(bars, {}, value_of)) return;
-    // The bars of the highest dimension of an image arrive in this order.
+    // The bars of the highest dimension of an image arrive in descending order.
     if (std::ranges::is_sorted(bars, std::ranges::greater(), value_of)) {
       std::ranges::reverse(bars);
       return;
@@ -125,7 +125,7 @@ void Barcode::sort_values(const RunContext& context) {
 }
 
 void Barcode::sort(const RunContext& context) {
-  // Union-find reports the deaths of vertices with equal births in this order.
+  // Union-find reports the deaths of vertices with equal births in ascending order.
   const bool are_sorted = std::ranges::is_sorted(bars_, [](const Bar& a, const Bar& b) {
     return std::tie(a.dim, a.birth, a.death) < std::tie(b.dim, b.birth, b.death);
   });

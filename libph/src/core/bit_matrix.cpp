@@ -7,7 +7,7 @@ namespace ph::bits {
 
 PH_FOR_EACH_TARGET
 std::size_t first_common(const Word* a, const Word* b, std::size_t words) {
-  // A block has the words of a cache line, which are scanned without branches.
+  // A block is one cache line. The words of a block are scanned without branches.
   constexpr std::size_t block = 8;
   std::size_t k = 0;
   for (; k + block <= words; k += block) {

@@ -208,7 +208,7 @@ class Decomposition {
     place_[start] = kNowhere;
   }
 
-  /// Moves the end of the path, which is a closed walk, to the walks found. The walk gets the
+  /// Moves the closed walk at the end of the path to the list of walks. The walk gets the
   /// coefficient of its first edge.
   void cut_off(std::size_t begin) {
     const std::int64_t a = directed(path_[begin].edge, path_[begin].from);

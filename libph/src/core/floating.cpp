@@ -41,7 +41,7 @@ const char* end_of_payload(const char* at, const char* last) {
 }
 
 /// The end of the longest number that begins at `first`, or `first` if there is none. Blanks, a
-/// plus sign and hexadecimal digits, which strtod accepts, do not count as a number.
+/// plus sign and hexadecimal digits, which strtod accepts, are not part of a number.
 const char* end_of_number(const char* first, const char* last) {
   const char* at = first;
   if (at != last && *at == '-') ++at;

@@ -77,7 +77,7 @@ std::size_t medoid(Diagrams diagrams, const RunContext& context) {
 }
 
 /// The mean of `count` points. The first points are the given bars. If there are fewer bars than
-/// `count`, all other points are the point on the diagonal that is nearest to the mean of the bars.
+/// `count`, every other point is the point on the diagonal that is nearest to the mean of the bars.
 /// Infinite ends stay infinite.
 Bar mean_of(const std::vector<Bar>& partners, std::size_t count) {
   const auto n = static_cast<double>(partners.size());

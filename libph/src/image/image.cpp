@@ -32,8 +32,8 @@ std::size_t voxels_of(const std::vector<Index>& extents, std::size_t bytes_of_vo
   return count;
 }
 
-/// True if voxels are contiguous and the last axis is the fastest. The stride of an axis with one
-/// voxel does not matter.
+/// True if voxels are contiguous and the index of the last axis varies fastest. The stride of an
+/// axis with one voxel does not matter.
 bool is_c_order(const std::vector<Index>& extents, std::span<const std::ptrdiff_t> strides) {
   std::ptrdiff_t expected = 1;
   for (std::size_t k = extents.size(); k-- > 0; expected *= extents[k])

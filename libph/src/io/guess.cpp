@@ -67,7 +67,7 @@ TextGuess guess_text(const Input& input, const ReadOptions& options) {
   guess.columns = n;
   guess.table = shape_of(input, layout);
   const SquareKind square = guess.table.square;
-  // Two rows are not enough, because the coordinates of two points of the plane may happen to form
+  // Two rows are not enough, because the coordinates of two points in the plane may happen to form
   // a symmetric matrix.
   if (n > 2 && (square == SquareKind::distances || square == SquareKind::zeros))
     guess.format = Format::distance;

@@ -13,10 +13,11 @@
 
 namespace ph {
 
-/// The points of R^1, R^2 or R^3 sorted into cubes slightly larger than a radius. All neighbours of
-/// a point are in the 27 cubes around it. Coordinates of cubes are integers stored as doubles,
-/// which cannot overflow. This class exists in addition to the k-d tree because the tree takes 1.1
-/// to 1.8 times as long (docs/development/adr/0020).
+/// The points of R^1, R^2 or R^3, sorted into cubes whose side is slightly larger than a radius.
+/// All neighbours of a point within the radius are in its own cube or in the 26 adjacent cubes.
+/// Coordinates of cubes are integers stored as doubles, which cannot overflow. This class exists in
+/// addition to the k-d tree because a search with the tree takes 1.1 to 1.8 times as long
+/// (docs/development/adr/0020).
 class CubeList {
  public:
   struct Point {
@@ -28,8 +29,8 @@ class CubeList {
   CubeList(PointsView points, double radius, const RunContext& context);
 
   /// Calls `visit(p, q)` for each pair of points in the same or in adjacent cubes. The order of the
-  /// pairs depends only on the points. Few of these pairs are farther apart than the radius, so the
-  /// time is proportional to the number of pairs within the radius.
+  /// pairs depends only on the points. The number of pairs is at most a constant times the number
+  /// of points plus the number of pairs within the radius.
   template <class Visit>
   void for_each_candidate_pair(Visit&& visit, const RunContext& context) const;
 
@@ -49,8 +50,8 @@ class CubeList {
 template <class Visit>
 void CubeList::for_each_candidate_pair(Visit&& visit, const RunContext& context) const {
   Ticker ticker(context, "near pairs", cubes_.size());
-  // This table lists half of the neighbours. They are the next cube of the same row, and three
-  // cubes in each of the following rows.
+  // Each pair of adjacent cubes is visited once. A cube therefore visits half of its 26 neighbours,
+  // which are the next cube of the same row, and three cubes in each of the rows listed here.
   constexpr std::array<std::array<double, 2>, 4> rows_after = {{{1, 0}, {-1, 1}, {0, 1}, {1, 1}}};
   std::array<std::size_t, 4> first{};  // for each row: the first cube that may still be adjacent
   for (std::size_t c = 0; c < cubes_.size(); ++c) {

@@ -36,8 +36,8 @@ std::pmr::vector<std::uint32_t> first_equal_points(PointsView points, const RunC
   for (auto run = order.begin(); run != order.end();) {
     const auto end =
         std::find_if_not(run, order.end(), [&](const Hashed& h) { return same_hash(*run, h); });
-    // Different points with equal hashes are rare, unless somebody constructs them. A sort of one
-    // point would allocate memory.
+    // Different points rarely have equal hashes, unless somebody constructs such points. Single
+    // points are skipped, because even a sort of one point allocates memory.
     if (end - run > 1)
       std::stable_sort(run, end, [&](const Hashed& a, const Hashed& b) {
         return std::ranges::lexicographical_compare(row(a.number), row(b.number));

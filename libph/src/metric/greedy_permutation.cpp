@@ -14,8 +14,8 @@ namespace ph {
 namespace {
 
 // The squared Euclidean distances of all points to the chosen points, computed axis by axis. The
-// compiler can vectorise the loops, because they have neither branches nor sums across points,
-// which it may not reorder.
+// compiler can vectorise the loops, because they contain neither branches nor sums across points.
+// It may not reorder such sums.
 class Squares {
  public:
   Squares(PointsView points, const RunContext& context)

@@ -10,9 +10,10 @@
 namespace ph {
 namespace {
 
-// A Gaps type is a norm that is never larger than the distance searched for. It is cheap to compute
-// from the gaps between two boxes on each axis. The norm and the distance are rounded. The function
-// `reach` therefore allows for the errors of sums, so that no point within the distance is missed.
+// A Gaps type computes a norm from the gaps between two boxes on each axis. The norm is cheap to
+// compute, and it is never larger than the distance that the search uses. Because the norm and the
+// distance are rounded, the function `reach` allows for the errors of sums. No point within the
+// distance is therefore missed.
 // mutant: search-slack
 double slack(Index axes) { return 1 + 4e-16 * static_cast<double>(axes + 8); }
 
@@ -20,7 +21,8 @@ struct EuclideanGaps {
   // Smaller sums of squares may have lost digits to underflow.
   static constexpr double kSmallestPlainSquare = 1e-280;
   static double add(double sum, double gap) { return sum + gap * gap; }
-  /// The largest sum that a distance <= d can have. @param slack a factor that allows for rounding.
+  /// The largest sum that can belong to a distance <= d. @param slack a factor that allows for
+  /// rounding.
   static double reach(double d, double slack) {
     return std::max(d * d * slack, kSmallestPlainSquare);
   }
@@ -35,7 +37,7 @@ struct ChebyshevGaps {
 };
 
 /// The gaps for Euclidean distances whose squares underflow. Searches reach at least 1e-160,
-/// because PointMetric gives distance 0 to points whose squared differences underflow to 0.
+/// because PointMetric computes the distance 0 for points whose squared differences underflow to 0.
 struct TinyGaps : ChebyshevGaps {
   static double reach(double d, double slack) { return std::max(d * slack, 1e-160); }
 };
@@ -111,8 +113,8 @@ class Search final : public NeighbourSearch {
     const VisitPair& visit;
     Ticker& ticker;
   };
-  /// Visits the pairs of a point of `a` and a point of `b`. The nodes must be on the same level,
-  /// and `b` must not come before `a`.
+  /// Visits each pair that consists of a point of `a` and a point of `b`. The nodes must be on the
+  /// same level, and `b` must not come before `a`.
   void visit_pairs(Node a, Node b, const Pairs& pairs) const {
     if (a != b && gap_of_boxes(tree_.box(a), tree_.box(b)) > pairs.reach) return;
     if (tree_.is_leaf(a)) {
@@ -258,7 +260,7 @@ std::unique_ptr<NeighbourSearch> NeighbourSearch::make(const KdTree& tree,
                                                        const PointMetric& metric,
                                                        PointDistance distance, double p) {
   // p-norms decrease as p grows. For p below 2, the Euclidean norm is therefore a lower bound. The
-  // largest coordinate is a lower bound for every p, and needs no squares.
+  // maximum norm is a lower bound for every p, and needs no squares.
   const double largest = largest_coordinate(tree.points());
   const bool is_euclidean = distance == PointDistance::euclidean;
   const bool are_squares_plain = kSmallestPlain < largest && largest < kLargestPlain;

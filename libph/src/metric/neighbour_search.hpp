@@ -13,7 +13,7 @@ namespace ph {
 
 /// Exact searches in a k-d tree for nearest points and for all pairs within a given distance.
 /// Distances equal the distances of PointMetric to the last bit. If two points are at the same
-/// distance, the point with the smaller row counts as nearer.
+/// distance, the point with the smaller row number counts as nearer.
 class NeighbourSearch {
  public:
   using Position = KdTree::Position;
@@ -35,8 +35,8 @@ class NeighbourSearch {
   virtual ~NeighbourSearch() = default;
 
   /// Decides which of several points at the same distance are found. With `by_row`, they are the
-  /// points with the smallest rows. With `any`, they are any of these points, which is much faster
-  /// if many points are equal and at distance 0.
+  /// points with the smallest row numbers. With `any`, they are any of these points. This is much
+  /// faster if many points are equal and therefore at distance 0.
   enum class Ties { by_row, any };
 
   /// For each point of a leaf, finds its k nearest other points at distance <= limit, nearest
@@ -53,7 +53,7 @@ class NeighbourSearch {
   virtual void pairs_within(double limit, const VisitPair& visit,
                             const RunContext& context) const = 0;
 
-  /// True if a k-d tree helps to bound the distance.
+  /// True if a k-d tree can give lower bounds for the distance.
   static bool can_search(PointDistance distance) {
     return distance == PointDistance::euclidean || distance == PointDistance::manhattan ||
            distance == PointDistance::chebyshev || distance == PointDistance::minkowski;

@@ -65,7 +65,7 @@ void visit_by_cubes(const PointMetric& metric, double radius, const Visit& visit
   const auto scale = [=](double x) { return std::scalbn(x, exponent); };
   Points scaled(points);
   std::ranges::transform(scaled.coordinates(), scaled.data(), scale);
-  // Distances that are denormal themselves were rounded, by at most half of the smallest denormal.
+  // A distance that is itself denormal may be rounded by up to half of the smallest denormal.
   const double reachable = radius + std::numeric_limits<double>::denorm_min();
   visit_in_cubes({scaled, std::min(scale(reachable), kLargestPlain), true}, metric, radius, visit,
                  context);

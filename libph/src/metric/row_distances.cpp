@@ -12,12 +12,12 @@
 namespace ph {
 namespace {
 
-// The number of points per block. It is small enough for sums to stay in registers. A block stores
-// its points axis by axis. Unused places in the last block are zero.
+// The number of points per block. It is so small that the sums for a block stay in registers. A
+// block stores its points axis by axis. Unused places in the last block are zero.
 constexpr Index kBlock = 16;
 
-// Computes the distances from point i to all points before it. The last block is written entirely.
-// @return the least squared distance that is not zero.
+// Computes the distances from point i to all points before it. The last block is written
+// completely, even the entries after point i. @return the least squared distance that is not zero.
 PH_FOR_EACH_TARGET
 double distances_of_row(const double* blocks, Index dims, Index i, double* out) {
   const double* point = blocks + i / kBlock * kBlock * dims + i % kBlock;
@@ -51,8 +51,8 @@ double distances_of_row(const double* blocks, Index dims, Index i, double* out) 
   return *std::min_element(least, least + kBlock);
 }
 
-// As integers, the bits of non-negative doubles are in the same order as the doubles. The bits of
-// negative doubles and of NaN are larger than the bits of infinity.
+// Read as integers, the bits of non-negative doubles are in the same order as the doubles. The bits
+// of negative doubles and of NaN are larger than the bits of infinity.
 PH_FOR_EACH_TARGET
 std::uint64_t take_maxima_as_bits(double* row, Index count, double* of_columns) {
   std::uint64_t largest = 0;

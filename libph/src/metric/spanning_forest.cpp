@@ -39,7 +39,7 @@ class Boruvka {
     std::iota(component_.begin(), component_.end(), 0U);
   }
 
-  /// Appends the edges of the forest, whose ends are rows of the points.
+  /// Appends the edges of the forest. The ends of an edge are row numbers of points.
   void run(FlagEdges& forest) {
     find_neighbours();
     do {
@@ -58,12 +58,13 @@ class Boruvka {
 
   enum class Knows : std::uint8_t {
     nearest,      // `first` is the nearest foreign point
-    lower_bound,  // the nearest foreign point comes after `first`, or after all points at that
-                  // distance if `first` names none
+    lower_bound,  // the nearest foreign point comes after `first`; if `first` is only a distance,
+                  // it comes after all points at this distance
   };
   struct Point {
     Neighbour first;
-    // The position of `first` among the known neighbours, or kKnown if the tree found it.
+    // The position of `first` among the known neighbours, or kKnown if the search in the tree found
+    // it.
     std::uint8_t place = 0;
     Knows knows = Knows::lower_bound;
   };

@@ -17,8 +17,8 @@ struct Panel {
   Longest places;  // positions in `bars`, in the barcode's order
 };
 
-/// The number of rows for each dimension. It is one row per bar if possible, otherwise a fair
-/// share.
+/// The number of rows for each dimension. A dimension gets one row per bar if possible, otherwise a
+/// fair share of the rows.
 std::vector<std::size_t> share_rows(const std::vector<Panel>& panels) {
   std::vector<std::size_t> rows(panels.size(), 0);
   std::size_t free = std::max(kRows, 4 * panels.size());

@@ -18,7 +18,7 @@ namespace ph::plot {
 /// A colour as 0x00RRGGBB.
 using Colour = std::uint32_t;
 
-inline constexpr double kWidth = 250;   // in points: 88 mm, the width of a column of a paper
+inline constexpr double kWidth = 250;   // in points: 88 mm, the width of a journal column
 inline constexpr Index kPixels = 1040;  // width of a PNG, at 300 dots per inch
 inline constexpr double kDotsPerInch = 300;
 inline constexpr double kHalo = 1.6;  // width of a line around text, half of it outside the text
@@ -33,7 +33,7 @@ std::string grouped(std::size_t number);
 /// The characters of a UTF-8 text. Characters that XML does not allow become U+FFFD.
 std::vector<std::string> characters_of(std::string_view text);
 
-/// An outline made of lines, open or closed, and circles.
+/// An outline that consists of lines, which may be closed, and of circles.
 class Outline {
  public:
   enum class Verb : std::uint8_t {
@@ -90,7 +90,7 @@ struct Style {
   std::optional<Colour> fill = {}, stroke = {};
   double stroke_width = 1;  ///< lines meet in round joints
   double fill_opacity = 1;
-  bool crisp = false;  ///< without smooth edges, so that adjacent areas show no seam
+  bool crisp = false;  ///< without antialiasing, so that adjacent areas show no seam
 };
 
 // The elements of a picture.
@@ -123,7 +123,8 @@ struct Picture {
 };
 using Element = std::variant<Line, Rectangle, Shape, Text, Picture>;
 
-/// A complete picture on white. The functions to_svg and to_raster convert it to file formats.
+/// A complete picture on a white background. The functions to_svg and to_raster convert it to file
+/// formats.
 struct Drawing {
   double height = 0, width = kWidth;  // in points
   std::optional<PlotSize> size = {};  // if empty: 88 mm, kPixels wide
@@ -143,7 +144,7 @@ class Canvas {
             double size = 7, Colour colour = kInk, Look look = Look::plain);
   /// Draws a raster. @param raster must outlive the drawing.
   void picture(double x, double y, double width, double height, const Raster& raster);
-  /// Draws the title above everything, cut in the middle if it is too long.
+  /// Draws the title above everything. If the title is too long, its middle is left out.
   void title(const std::string& title);
   /// Returns the complete drawing and leaves the canvas empty.
   Drawing finish(double height, std::string_view title, std::string_view description);
@@ -159,7 +160,7 @@ struct Range {
   double high = 1;
 };
 
-/// Maps the finite values of a barcode to positions and places the ticks. It is safe for values of
+/// Maps the finite values of a barcode to positions and places the ticks. It works for values of
 /// any size, because it computes in units of a power of ten.
 class Axis {
  public:
@@ -212,9 +213,9 @@ bool is_shown(double birth, double death, const PlotAxis& limits);
 /// The bars that are drawn, without cells. @param beyond receives the number of bars that are
 /// beyond the axis.
 Barcode shown_of(const Barcode& barcode, const PlotOptions& options, std::size_t& beyond);
-/// Writes how many bars are beyond the axis, to the left of the axis's name.
+/// Writes, to the left of the axis's name, how many bars are beyond the axis.
 void explain_beyond(Canvas& canvas, std::size_t beyond, double bottom);
-/// Centres the drawing in a picture of the size that the options ask for.
+/// Centres the drawing in a picture of the size that the options give.
 Drawing fitted(Drawing drawing, const PlotOptions& options);
 /// The dimensions that have bars, ascending.
 std::vector<int> dims_of(const Barcode& barcode);

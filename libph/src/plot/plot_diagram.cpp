@@ -27,8 +27,8 @@ struct Marker {
 
 using Places = std::map<std::tuple<int, long, long>, Marker>;
 
-/// Merges the bars of a dimension that are in the same square of a quarter of a point. The marker
-/// is drawn at their mean position.
+/// Merges the bars of a dimension that are in the same square. The sides of the squares are a
+/// quarter of a point long. The marker is drawn at the mean position of its bars.
 template <class PlaceOf>
 Places gather(std::span<const Bar> bars, PlaceOf&& place_of) {
   constexpr double cell = 0.25;
@@ -86,8 +86,8 @@ void add_shape(Outline& to, int dim, double x, double y, double r) {
   }
 }
 
-/// Writes "Filtration value" with a lower-case letter for use inside a phrase. Words like "XY" do
-/// not change.
+/// Writes the first letter of "Filtration value" in lower case, for use inside a phrase. Words like
+/// "XY" do not change.
 std::string lower_first(std::string text) {
   const auto in = [](char c, char a, char b) { return c >= a && c <= b; };
   if (text.size() > 1 && in(text[0], 'A', 'Z') && in(text[1], 'a', 'z'))
@@ -139,7 +139,7 @@ class Squares {
   std::map<std::tuple<int, long, long>, std::size_t> counts_;
 };
 
-/// The axes of a diagram, and the positions of bars on it.
+/// The axes of a diagram, and the positions of bars in it.
 class Frame {
  public:
   Frame(const Barcode& barcode, const PlotOptions& options, double top)

@@ -12,8 +12,8 @@
 
 #include "ph/error.hpp"
 
-// The font, DejaVu Sans, is built in as CMake found it, because a machine that runs the program may
-// have no font or a different one.
+// The font DejaVu Sans is built into the library, because a machine that runs the program may have
+// no font or a different one. CMake finds the font file.
 extern "C" {
 extern const unsigned char kFontBegin[] __asm__("ph_plot_font_begin");
 extern const unsigned char kFontEnd[] __asm__("ph_plot_font_end");
@@ -112,7 +112,7 @@ struct Font::Face {
   ~Face() {
     if (library != nullptr) FT_Done_Library(library);  // this also frees its faces
   }
-  /// Checks the result of a call of FreeType. @throws std::bad_alloc; Error (internal).
+  /// Checks the result of a FreeType call. @throws std::bad_alloc; Error (internal).
   void require(FT_Error error) const {
     if (out_of_memory) throw std::bad_alloc();
     if (error != 0)

@@ -77,7 +77,7 @@ class Density {
   std::vector<double> change_;  // change of the number of classes in each column
 };
 
-/// Explains the triangles, on the right beside the name of the axis.
+/// Explains the triangles, to the right of the axis's name.
 void explain_triangles(Canvas& canvas, double bottom);
 
 }  // namespace ph::plot

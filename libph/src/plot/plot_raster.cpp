@@ -12,7 +12,7 @@
 namespace ph::plot {
 namespace {
 
-constexpr double kBold = 0.045;  // thickening of outlines by bold type, as a share of the size
+constexpr double kBold = 0.045;  // how far bold type thickens outlines, as a share of the size
 
 /// Width of a picture in pixels.
 Index pixels_across(const Drawing& drawing) {

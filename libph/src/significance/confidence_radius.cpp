@@ -90,7 +90,7 @@ double confidence_radius(PointsView points, const ConfidenceOptions& options,
   const auto search = NeighbourSearch::make(tree, metric, PointDistance::euclidean, 2);
   const std::size_t size = options.size == 0 ? usual_size(n) : options.size;
 
-  // The Hausdorff distance of each subsample from all points.
+  // The Hausdorff distance between each subsample and all points.
   std::vector<double> distances(options.subsamples);
   for_each_piece(
       "subsamples", options.subsamples, 1, context, [&](std::size_t begin, std::size_t end) {

@@ -172,8 +172,8 @@ class KMeans {
   bool is_new_ = true;
 };
 
-/// The width of each centre. It is half the distance of the centre to the nearest other centre. For
-/// a single centre, it is the mean distance of the bars from the centre.
+/// The width of each centre. It is half the distance from the centre to the nearest other centre.
+/// For a single centre, it is the mean distance from the bars to the centre.
 std::vector<double> widths_of(const std::vector<Place>& centres, const std::vector<Heap>& heaps) {
   std::vector<double> widths;
   for (std::size_t k = 0; k < centres.size(); ++k) {
@@ -220,8 +220,8 @@ Atol fit_atol(std::span<const std::span<const Bar>> diagrams, const AtolOptions&
         ErrorKind::bad_data,
         fmt::format("{}: different bars: found {}, expected at least {}, the number of centres",
                     mark_place("fit_atol"), heaps.size(), options.centres));
-  // The unit is chosen so that all numbers are below 1, because squares of small numbers would be
-  // 0.
+  // The unit is chosen so that the largest number is between 1/2 and 1. In a larger unit, the
+  // squares of small numbers could be 0.
   double largest = 0;
   for (const auto& heap : heaps)
     largest = std::max({largest, std::abs(heap.place[0]), std::abs(heap.place[1])});

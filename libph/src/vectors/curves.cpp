@@ -83,9 +83,9 @@ void silhouette(std::span<const Bar> given, const Grid& grid, double power, std:
   if (bars.empty()) return;
   double longest = 0;
   for (const Bar& bar : bars) longest = std::max(longest, bar.persistence());
-  // A tent of weight w is w t - w b where it rises and w d - w t where it falls. The coefficients
-  // of t and the constants are summed separately. All numbers are relative to the middle of the
-  // grid, because smaller numbers have smaller rounding errors.
+  // The tent of a bar from b to d with weight w is w t - w b where it rises and w d - w t where it
+  // falls. The coefficients of t and the constants are summed separately. All numbers are relative
+  // to the middle of the grid, because smaller numbers have smaller rounding errors.
   const double middle = grid.lo / 2 + grid.hi / 2;
   vectors::LivingBars slopes(cells), constants(cells);
   vectors::LongSum weights;

@@ -48,8 +48,8 @@ double scale_space_kernel(std::span<const Bar> a, std::span<const Bar> b, double
   const std::vector<Bar> first = vectors::checked_bars(a, Ends::finite, "scale_space_kernel");
   std::vector<Bar> second = vectors::checked_bars(b, Ends::finite, "scale_space_kernel");
   const double width = std::sqrt(8 * sigma);
-  // The squared distance |p - q'|² equals |p - q|² + 2 length(p) length(q). This form needs no
-  // difference of nearly equal numbers.
+  // Let q' be the mirror image of q at the diagonal. The squared distance |p - q'|² equals |p - q|²
+  // + 2 length(p) length(q). This form needs no difference of nearly equal numbers.
   const double sum = vectors::sum_over_pairs(
       first, std::move(second), width, context, [width](const Bar& p, const Bar& q) {
         // mutant: kernel-mirror

@@ -71,8 +71,8 @@ ScratchFile::~ScratchFile() {
 
 void ScratchFile::resize(std::size_t bytes) {
   if (bytes == size_) return;
-  // Space is reserved now, because a write to a mapped page without disk space would end the
-  // program.
+  // Disk space is reserved now. Otherwise a later write to a mapped page would end the program if
+  // the disk is full.
   const auto length = static_cast<off_t>(bytes);
   const int error = bytes > size_ ? ::posix_fallocate(file_, 0, length)
                                   : (::ftruncate(file_, length) == 0 ? 0 : errno);

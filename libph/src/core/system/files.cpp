@@ -20,7 +20,7 @@
 namespace ph::files {
 namespace {
 
-constexpr int kPollMilliseconds = 50;  // a waiting read notices a stop request after this time
+constexpr int kPollMilliseconds = 50;  // a waiting read notices a stop request within this time
 
 Status from(const struct stat& status) {
   return {S_ISREG(status.st_mode)   ? Kind::regular

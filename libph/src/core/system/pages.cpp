@@ -11,8 +11,9 @@
 namespace ph {
 namespace {
 
-// Blocks are placed on pages of 2 MiB if the system offers them on request. This takes a few page
-// faults instead of thousands, and random reads miss the address cache (TLB) less often.
+// Blocks are placed on pages of 2 MiB if the system offers them on request. Filling a block then
+// causes a few page faults instead of thousands, and random reads miss the address cache (TLB) less
+// often.
 constexpr std::size_t kHugePage = std::size_t{2} << 20;
 
 // Tells the system how the complete pages of a block will be used.

@@ -28,8 +28,8 @@ class JoinedMatchings {
   /// @return the partner of each bar of the first diagram, or kNone.
   std::vector<std::uint32_t> join() {
     partners_.assign(mates_[0][0].size(), kNone);
-    // Paths are followed first. They start at bars that have a pair in only one of the matchings.
-    // After that, only cycles are left.
+    // Paths are followed first. They start at bars that have a partner in only one of the
+    // matchings. After that, only cycles are left.
     for (const bool ends : {true, false})
       for (std::size_t side : {0U, 1U})
         for (std::uint32_t i = 0; i < mates_[0][side].size(); ++i) {

@@ -51,19 +51,19 @@ DistanceBounds OneSidedMatching::narrow(const DistanceBounds& bounds,
   };
   if (!is_done() && limits.at_most >= found.lower && limits.at_most < found.value)
     probe(limits.at_most);
-  // This is the radius to try next. If all long bars can be paired within it, the search is over.
+  // The largest radius with which the search is over if all long bars can be paired within it.
   const auto last = [&] {
     return std::max(found.lower * (1 + limits.relative_error), std::min(bounds.value, found.value));
   };
-  // The search moves away from the lower bound in growing steps, because the answer is usually near
-  // it.
+  // The search moves away from the lower bound in growing steps, because the least radius is
+  // usually near this bound.
   bool is_possible = is_done() || probe(last());
   for (double step = 1.01; !is_done() && !is_possible; step *= step) {
     const double radius = std::max(found.lower * step, last());
     if (!(radius < found.value)) break;
     is_possible = probe(radius);
   }
-  // This searches between the bounds. Every fourth time it tries the radius that would end the
+  // The search continues between the bounds. Every fourth probe uses the radius that would end the
   // search, because the lower bound may already be the answer.
   for (int i = 1; !is_done(); ++i) {
     const double middle = found.lower + (found.value - found.lower) / 2;
@@ -81,15 +81,14 @@ std::optional<double> OneSidedMatching::hall_bound(double radius) {
   }
   keep_pairs_within(radius);
   std::vector<Number> alone = pair_with_free(radius);
-  // This searches depth first as long as each search pairs at least half of the remaining bars,
-  // which happens when most bars have many possible partners.
+  // The search is depth first as long as each pass pairs at least half of the remaining bars. This
+  // happens when most bars have many possible partners.
   for (std::size_t before = 2 * alone.size(); alone.size() <= before / 2 && !alone.empty();) {
     before = alone.size();
     search_in_depth(alone, radius);
   }
   while (!alone.empty()) {
-    // This searches exhaustively from one unpaired bar. If the search fails, no other bar has to be
-    // tried.
+    // The search from one unpaired bar is exhaustive. If it fails, no other bar has to be tried.
     std::swap(alone[random_() % alone.size()], alone.back());
     std::vector<Number> one = {alone.back()};
     alone.pop_back();

@@ -52,8 +52,8 @@ class OneSidedMatching {
   };
 
   /// Tries to pair all long bars within the radius, and returns nothing if this succeeds. Otherwise
-  /// returns a larger radius, below which pairing is impossible. The reason is Hall's theorem: the
-  /// bars of a tree of alternating paths that can no longer grow have too few possible partners.
+  /// returns a larger radius, below which pairing is impossible. The reason is Hall's theorem: when
+  /// the trees of alternating paths can no longer grow, their bars have too few possible partners.
   std::optional<double> hall_bound(double radius);
   /// Removes pairs of bars that are too far apart, and pairs of short bars.
   void keep_pairs_within(double radius);

@@ -29,8 +29,8 @@ constexpr double kRounding = 1e-13;
 // repeated.
 constexpr double kUnsure = 1e-9;
 
-// The search is repeated in a smaller unit of length only if this change divides the power of the
-// unit by at least this factor.
+// The search is repeated in a smaller unit of length only if the power of the new unit is smaller
+// by at least this factor.
 constexpr double kFiner = 16;
 
 // The largest number of bids per bar in a round. Auctions without bidding wars over equal bars need
@@ -67,8 +67,8 @@ double norm_of(std::span<const double> lengths, double order) {
 }
 
 /// A unit of length in which powers of lengths up to `largest` never overflow. Numbers are scaled
-/// by a power of two. Powers of order 1 and 2 are exact where possible. Other powers are powers of
-/// numbers up to 1.
+/// by a power of two. Powers of order 1 and 2 are exact where possible. For other orders, the base
+/// of each power is at most 1.
 struct Unit {
   double largest;
   int exponent;

@@ -14,8 +14,8 @@ class WeightedTree {
  public:
   using Position = PointTree::Position;
 
-  /// All weights are -infinity at first; the search ignores such points. @param tree, cost must
-  /// outlive this object.
+  /// At first, all weights are -infinity. The search ignores points with this weight. @param tree,
+  /// cost must outlive this object.
   WeightedTree(const PointTree& tree, const GroundCost& cost, const RunContext& context);
 
   double weight(Position q) const { return weights_[q]; }

@@ -11,7 +11,7 @@
 namespace ph {
 namespace {
 
-/// Appends a number of 8 bytes, which is little endian on every machine.
+/// Appends a number as 8 bytes in little-endian order, on every machine.
 template <class T>
 void put(OutputFile& file, T value) {
   static_assert(sizeof(T) == 8);
@@ -28,7 +28,7 @@ constexpr std::int64_t kDiphaDiagram = 2;
 
 void write_barcode_dipha(OutputFile& file, const Barcode& barcode,
                          const std::optional<double>& threshold) {
-  // An essential class of dimension k is stored with the dimension -k-1. Its death is the largest
+  // An essential class of dimension k is stored with the dimension -k-1. Its death is the maximum
   // of the threshold and all finite values.
   double largest = threshold && std::isfinite(*threshold) ? *threshold : -kInfinity;
   for (const Bar& bar : barcode)

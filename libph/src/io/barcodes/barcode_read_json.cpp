@@ -206,7 +206,7 @@ class Reader {
 
  private:
   void skip(const std::string& name) {
-    // The number of names is large enough to tell the user what is lost.
+    // This number of names is enough to tell the user what is lost.
     constexpr std::size_t most = 20;
     if (skipped_.size() < most) skipped_.insert(printable(name, 40));
     json_.skip_value();
@@ -218,7 +218,7 @@ class Reader {
     if (value == "cycles") return Representatives::cycles;
     if (value == "cocycles") return Representatives::cocycles;
     // Sets of voxels are not read, because only segmentation programs need them, and a few numbers
-    // in the file may represent an entire image.
+    // in the file can expand to an entire image.
     if (value != "none" && value != "voxels") {
       json_.fail(place,
                  {"representatives", printable(value, 40), "cycles, cocycles, voxels or none", {}});
@@ -366,7 +366,7 @@ class Reader {
         }
       }
       coefficients_.push_back(coefficient);
-      // All cells of a chain have the same quantity of numbers.
+      // All cells of a chain have equally many numbers.
       const std::size_t numbers = chain_.size() - before;
       if (numbers == 0 || chain_.size() != numbers * coefficients_.size() || coefficient == 0) {
         json_.fail(place, {"representative",

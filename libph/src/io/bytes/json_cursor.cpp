@@ -39,8 +39,8 @@ bool take_digits(std::string_view& word) {
   return end > 0;
 }
 
-/// Follows RFC 8259. A number has no zero before other digits, and has digits on both sides of a
-/// decimal point.
+/// Follows RFC 8259. A number has no leading zero before other digits, and has digits on both sides
+/// of a decimal point.
 bool is_json_number(std::string_view word) {
   if (word.starts_with('-')) word.remove_prefix(1);
   if (word.size() > 1 && word[0] == '0' && word[1] >= '0' && word[1] <= '9') return false;

@@ -11,7 +11,7 @@ namespace ph::detail {
 // n < 32, then n + 1 bytes) and matches that repeat earlier output (three bits of length, thirteen
 // bits of distance).
 
-/// The place and the reason of a failed decompression; `reason` is null if it succeeded.
+/// The reason and the place of a decompression error. `reason` is null if there was no error.
 struct LzfFault {
   const char* reason = nullptr;
   std::size_t offset = 0;  ///< offset into the compressed bytes

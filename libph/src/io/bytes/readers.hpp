@@ -11,7 +11,7 @@ namespace ph::detail {
 
 struct TableLayout;
 
-/// A table of numbers from a text, whose rows have equal length.
+/// A table of numbers that was read from a text. All rows have the same length.
 struct TextTable {
   Points rows;
   std::vector<std::string> header;  ///< the cells of a first line without numbers, or empty
@@ -63,7 +63,7 @@ bool is_text(std::string_view bytes);
 /// True if the first line of a set of points is the number of points, as in PTS.
 bool is_counted(const Input& input);
 
-/// Reads an NPY, or the array of an NPZ, without changes. NaN remain.
+/// Reads an NPY, or the array of an NPZ, without changes. NaN values are kept.
 Image read_npy_array(const Input& input, Input::Excess excess = Input::Excess::refused);
 /// True if an NPY contains floats. Precondition: the input is an NPY.
 bool is_npy_of_floats(const Input& input);

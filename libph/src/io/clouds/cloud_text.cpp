@@ -160,7 +160,7 @@ Cloud read_xyz(const Input& input, const ReadOptions& options) {
   as_points.array = ArrayMeaning::points;
   as_points.columns.clear();
   detail::TableLayout layout = detail::table_layout(input, as_points);
-  // Readers of clouds always take all columns. The notes must therefore not suggest choosing some
+  // Readers of clouds always read all columns. The notes must therefore not suggest choosing some
   // of them.
   for (Message& note : layout.notes) note = note.without(Setting::columns);
   detail::TextTable table = detail::read_text_table(input, Allow::any, options, false, &layout);

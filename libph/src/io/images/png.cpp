@@ -27,8 +27,8 @@ struct Source {
   std::size_t offset = 0;
 };
 
-// libpng is C code, which only longjmp may leave. An error is therefore stored here before the
-// jump.
+// libpng is C code, so no exception may pass through it. Instead, an error is stored here, and
+// longjmp then leaves libpng.
 struct Report {
   std::string message;
   bool out_of_memory = false;

@@ -23,7 +23,7 @@ DistanceMatrix no_points(const Input& input, const ReadOptions& options);
 std::vector<double> make_triangle(const Input& input, std::size_t n, std::size_t first,
                                   std::optional<std::size_t> cells, const ReadOptions& options);
 
-/// The text for an error message that names the option that asked for a square matrix, and a
+/// The text for an error message that names the option that requires a square matrix, and a
 /// possible cause of the problem.
 std::string why_square(const ReadOptions& options);
 

@@ -120,7 +120,8 @@ DistanceMatrix read_triangle(const Input& input, const ReadOptions& options, boo
   if (!first_row(lines, options)) return detail::no_points(input, options);
   TextEntries entries(lines, options);
   std::vector<double> first;
-  // This reserves as many pairs as the lines suggest, but no more than the bytes can hold.
+  // Memory is reserved for as many pairs as the number of lines suggests, but never for more than
+  // the input can contain.
   if (lower) {
     const std::string_view text = input.text();
     const auto rows = static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')) + 2;

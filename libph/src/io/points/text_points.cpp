@@ -87,7 +87,7 @@ detail::TextTable table_of_points(const Input& input, const ReadOptions& options
   return table;
 }
 
-// The columns of an array that `options` asks for.
+// The columns of an array that the options select.
 Points chosen_of(Points points, const Input& input, const ReadOptions& options) {
   if (options.columns.empty()) return points;
   const auto columns =

@@ -62,7 +62,7 @@ bool rounds_to_zero(std::string_view cell) {
   std::int64_t exponent = 0;
   const auto [stop, error] = std::from_chars(cell.data() + i, cell.data() + cell.size(), exponent);
   if (error != std::errc{}) return negative;
-  // Larger than the number of digits in a line.
+  // This limit is larger than the number of digits in a line.
   exponent = std::min(exponent, std::int64_t{1} << 40);
   return (negative ? leading - exponent : leading + exponent) < 0;
 }

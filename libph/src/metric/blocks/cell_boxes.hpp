@@ -12,25 +12,25 @@
 
 namespace ph {
 
-// Distances are compared by their squares, with enough slack for conclusions to hold for the
-// rounded distances of PointMetric.
+// Distances are compared by their squares. The slack is so large that each conclusion also holds
+// for the rounded distances of PointMetric.
 
 inline double squared_distance(const double* x, const double* y, Index axes) {
   double sum = 0;
   for (Index k = 0; k < axes; ++k) sum += (x[k] - y[k]) * (x[k] - y[k]);
   return sum;
 }
-/// A bound for computed squares of gaps. If the square computed for two points exceeds this bound,
-/// the distance of the points exceeds the root of `square`. A sum of squares has a relative error
-/// of at most (axes + 2) · 2^-53. Below 1e-280, the error is arbitrary. The bound need not be
-/// tight.
+/// A bound for computed squared distances. If the squared distance computed for two points exceeds
+/// this bound, the distance between the points exceeds the root of `square`. A computed sum of
+/// squares has a relative error of at most (axes + 2) · 2^-53. Below 1e-280, its error can have any
+/// size. The bound need not be tight.
 inline double reach_of(double square) {
   constexpr double slack = 1 + 1e-12, least = 4 * kSmallestPlain * kSmallestPlain;
   return std::max(square, least) * slack;
 }
 
-/// For each cell, the box around all or some of its points, and the largest distance of these
-/// points from the sample point of the cell.
+/// For each cell, the box around all or some of its points, and the largest distance from these
+/// points to the sample point of the cell.
 class CellBoxes {
  public:
   /// Makes empty boxes. @param count the number of boxes.
@@ -41,7 +41,7 @@ class CellBoxes {
       sides_[i + 1] = -std::numeric_limits<double>::infinity();
     }
   }
-  /// Adds a point x to box i. @param square the squared distance of x to the sample.
+  /// Adds a point x to box i. @param square the squared distance from x to the sample.
   void add_point(std::size_t i, const double* x, double square) {
     double* const box = sides_.data() + i * box_size();
     for (Index k = 0; k < axes_; ++k) {
@@ -64,10 +64,10 @@ class CellBoxes {
   std::span<const double> box(std::size_t i) const {
     return {sides_.data() + i * box_size(), box_size()};
   }
-  /// The square of the largest distance of a point of the box to the sample.
+  /// The square of the largest distance from a point of the box to the sample.
   double square(std::size_t i) const { return squares_[i]; }
-  /// The square of the gap between box i and the box from `low` to `high`, arrays whose coordinates
-  /// are `stride` apart. For a point, `low` and `high` are the same.
+  /// The square of the gap between box i and the box from `low` to `high`. The coordinates in these
+  /// two arrays are `stride` apart. For a point, `low` and `high` are the same.
   double gap(std::size_t i, const double* low, const double* high, Index stride) const {
     const double* const box = sides_.data() + i * box_size();
     double sum = 0;

@@ -15,7 +15,7 @@
 namespace ph {
 namespace {
 
-/// Gives access to one point after another, with its coordinates contiguous in memory.
+/// Gives access to the points one by one. The coordinates of each point are contiguous in memory.
 class Rows {
  public:
   explicit Rows(PointsView points)
@@ -75,8 +75,8 @@ std::uint64_t CloudBlocks::fingerprint_of(PointsView points) {
   return fingerprint;
 }
 
-// Collects the data of the entire cloud that affect distances, and data of the points in the blocks
-// of this object.
+// Collects the properties of the entire cloud that affect distances, and data about the points in
+// the blocks of this object.
 void CloudBlocks::scan(SampleTree::Range mine, const RunContext& context) {
   const Index axes = points_.cols();
   const auto d = static_cast<std::size_t>(axes);
@@ -161,7 +161,7 @@ NumberedForest CloudBlocks::forest(std::uint32_t block, double limit,
       PointDistance::euclidean, 2, limit, context, largest_);
   members.coordinates = std::pmr::vector<double>(&context.memory);
 
-  // An isolated point does not occur in the forest.
+  // Only points that have an edge are listed in the forest.
   std::pmr::vector<bool> occurs(size, false, &context.memory);
   for (const FlagEdge& e : result.edges) occurs[e.u] = occurs[e.v] = true;
   std::pmr::vector<std::uint32_t> place(size, &context.memory);
@@ -169,8 +169,8 @@ NumberedForest CloudBlocks::forest(std::uint32_t block, double limit,
     place[i] = static_cast<std::uint32_t>(result.numbers.size());
     if (occurs[i]) result.numbers.push_back(members.numbers[i]);
   }
-  // An edge between points outside the block is found by another part. The search relied on its
-  // ends being joined, so the edge becomes a claim.
+  // An edge between two points outside the block is left to another part. The search assumed that
+  // its ends are joined, so the edge becomes a claim.
   std::size_t kept = 0;
   for (const FlagEdge& e : result.edges) {
     const FlagEdge renumbered{e.value, place[e.u], place[e.v]};

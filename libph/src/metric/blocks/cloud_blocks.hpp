@@ -13,9 +13,10 @@
 
 namespace ph {
 
-/// Some blocks of a cloud. Computes, block by block, the edges of the cloud's minimum spanning
-/// forest that have an end in the block. The class reads the entire cloud once when it is made and
-/// once per block. It keeps only one block and the points near it in memory.
+/// Some of the blocks of a cloud. The class computes, block by block, the edges of the cloud's
+/// minimum spanning forest that this block must find (see `forest`). It reads the entire cloud once
+/// when it is constructed and once more for each block. It keeps only one block and the points near
+/// it in memory.
 class CloudBlocks {
  public:
   /// @param points must have at least one coordinate.
@@ -28,11 +29,12 @@ class CloudBlocks {
   std::uint64_t fingerprint() const { return fingerprint_; }
   /// The fingerprint of a cloud, computed without making blocks, in O(coordinates).
   static std::uint64_t fingerprint_of(PointsView points);
-  /// Number of points in the blocks.
+  /// The number of points in the blocks of this object.
   Index size() const { return size_; }
-  /// The forest contains all edges that this block must find, which are the edges of the cloud's
-  /// minimum spanning forest that have an end in the block. It may also contain other edges.
-  /// docs/explanation/engines/cloud-parts.md explains claims.
+  /// The forest of one block. It contains the edges that this block must find. They are the edges
+  /// of the cloud's minimum spanning forest that lie within the block, or between the block and one
+  /// of the blocks to which it looks for edges (see NearPoints::looks_for). The forest may also
+  /// contain other edges. docs/explanation/engines/cloud-parts.md explains its claims.
   NumberedForest forest(std::uint32_t block, double limit, const RunContext& context) const;
 
  private:

@@ -77,8 +77,9 @@ NearPoints::NearPoints(const SampleTree& tree, const Bottlenecks& bottlenecks,
   mark(SampleTree::kRoot, regions);
 }
 
-// The blocks form a circle, and each block looks for edges to the half of the circle ahead of it.
-// If two blocks are opposite each other, their parity decides which block looks for edges.
+// The blocks are arranged in a circle. Each block looks for edges to the blocks in the half of the
+// circle ahead of it. If two blocks are opposite each other, the parity of the smaller number
+// decides which of the two blocks looks for edges.
 bool NearPoints::looks_for(std::uint32_t block, std::uint32_t other, std::uint32_t blocks) {
   if (block == other) return false;
   const std::uint64_t ahead = (std::uint64_t{other} + blocks - block) % blocks;
@@ -86,7 +87,7 @@ bool NearPoints::looks_for(std::uint32_t block, std::uint32_t other, std::uint32
   return (std::min(block, other) % 2 == 0) == (block < other);  // mutant: cloud-opposite
 }
 
-/// Sets the kinds of a node and of the nodes below it. @return true if any of these nodes is not
+/// Sets the kinds of a node and of the nodes below it. @return true if one of these nodes is not
 /// hopeless.
 bool NearPoints::mark(Node node, const CellRegions& regions) {
   if (node == own_) {

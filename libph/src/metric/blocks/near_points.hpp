@@ -29,7 +29,7 @@ class CellRegions {
 /// of the entire cloud. An edge (u, x) is not in that tree if shorter hops lead from u to x in
 /// three stages. The first stage leads from u to a sample point in its own block. The second stage
 /// leads through the sample to a sample point in the block of x. The third stage leads to x. A
-/// point x is left out if this holds for all points u of the block (see
+/// point x is left out if there are such hops to x from every point u of the block (see
 /// docs/explanation/engines/cloud-parts.md).
 class NearPoints {
  public:
@@ -64,9 +64,9 @@ class NearPoints {
   bool mark(Node node, const CellRegions& regions);
   bool may_be_near(Node node, const CellRegions& regions) const;
   bool is_near(const double* x, Node leaf) const;
-  /// The square of an upper bound for the length of edges between a point of the node `own` of the
-  /// block and a point outside the block. @param square an upper bound for the squared distances of
-  /// these points to the sample.
+  /// The square of an upper bound for the length of edges between a point of the block's node `own`
+  /// and a point outside the block. @param square an upper bound for the squared distances from the
+  /// two points to the sample.
   double reach(Node own, double square, double within, SampleTree::Cell cell, double gap) const;
   std::size_t box_of(Node own_leaf) const {
     return 2 * (first_cell_ + (tree_.cells(own_leaf).begin - tree_.cells(own_).begin));

@@ -18,8 +18,8 @@ bool is_same(const FlagEdge& a, const FlagEdge& b) {
   return a.value == b.value && a.u == b.u && a.v == b.v;
 }
 
-/// The union of two ascending lists of numbers, and the positions of the entries of both lists in
-/// the union.
+/// The union of two ascending lists of numbers. For each entry of the two lists, `places` gives its
+/// position in the union.
 struct Merged {
   std::pmr::vector<Index> numbers;
   std::pmr::vector<std::uint32_t> places[2];

@@ -61,8 +61,9 @@ SampleTree::SampleTree(PointsView points, std::size_t sample, std::uint32_t bloc
     if (s.right != 0 && size > 0) s.point = cell[s.point];
 }
 
-// Draws one point from each of `sample` ranges of equal length, because consecutive points in a
-// file are usually close. If several drawn points are equal, the first of them is kept.
+// Draws one point from each of `sample` equally long ranges of points, because consecutive points
+// in a file are usually close together. If several drawn points are equal, the first of them is
+// kept.
 void SampleTree::draw(PointsView points, std::size_t sample, const RunContext& context) {
   const auto n = static_cast<std::uint64_t>(points.rows());
   const Index axes = points.cols();
@@ -100,8 +101,8 @@ void SampleTree::draw(PointsView points, std::size_t sample, const RunContext& c
   }
 }
 
-/// Splits a node. @param order the points that were drawn, by number; the entries for the node's
-/// cells are rearranged.
+/// Splits a node. @param order the numbers of the drawn points. The entries for the node's cells
+/// are rearranged.
 void SampleTree::split(Range cells, Range blocks, std::span<std::uint32_t> order) {
   const auto node = static_cast<Node>(splits_.size());
   splits_.push_back({0, 0, 0, 0});
@@ -154,7 +155,7 @@ NearSample nearest_sample(const SampleTree& tree, std::uint32_t block, const dou
     SampleTree::Node node;
     double gap;  // a lower bound for the squared distance to the node
   };
-  // There is one entry per level; a set of points cannot be halved more often.
+  // The stack has one entry per level. A set of points cannot be halved more than 64 times.
   std::array<Entry, 64> stack;
   std::size_t height = 0;
   stack[height++] = {tree.node_of_block(block), 0};

@@ -56,8 +56,9 @@ class SampleTree {
   Range blocks(Node node) const { return blocks_[node]; }
   /// The node that consists of exactly this block.
   Node node_of_block(std::uint32_t block) const { return block_nodes_[block]; }
-  /// The split of a node. Coordinates on the left are at most this value, and coordinates on the
-  /// right are at least this value. If the value is -infinity, all points are on the right.
+  /// The axis and the value of a node's split. On this axis, coordinates on the left are at most
+  /// the value, and coordinates on the right are at least the value. If the value is -infinity, all
+  /// points are on the right.
   std::uint32_t axis(Node node) const { return splits_[node].axis; }
   double value(Node node) const { return splits_[node].value; }
 
@@ -75,7 +76,8 @@ class SampleTree {
     double value;
     Node right;  // 0 for a leaf
     std::uint32_t axis;
-    // The first point on the right, first as its row in drawn_, later as its cell.
+    // The first point on the right. During construction this is a row of drawn_, and afterwards a
+    // cell.
     std::uint32_t point;
   };
   /// True if x comes before the first point on the right. Coordinates are compared one after
@@ -104,7 +106,8 @@ NearSample nearest_sample(const SampleTree& tree, std::uint32_t block, const dou
 
 /// The bottleneck distances between points of a sample. The bottleneck of two points is the least
 /// number r such that hops of length at most r within the sample lead from one point to the other.
-/// It equals the longest edge between them in a minimum spanning tree.
+/// It is the length of the longest edge on the path between the two points in a minimum spanning
+/// tree.
 class Bottlenecks {
  public:
   /// @param largest the largest coordinate of the cloud, as for PointMetric.
@@ -120,9 +123,9 @@ class Bottlenecks {
     }
     return longest;
   }
-  /// The square of twice the least bottleneck between this cell and another cell. If the distance
-  /// of a point of the cell from the sample is at most the root of this square, this distance does
-  /// not make longer edges possible.
+  /// The square of twice the least bottleneck between this cell and another cell. A point counts as
+  /// near the sample point of this cell if its squared distance is at most this square. Such a
+  /// distance at most doubles the bound for the length of an edge.
   double square_around(SampleTree::Cell cell) const {
     const double twice = 2 * first_[cell];
     return twice * twice;

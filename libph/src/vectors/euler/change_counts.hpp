@@ -13,8 +13,9 @@
 #include "ph/detail/core/raw_vector.hpp"
 #include "ph/euler_curve.hpp"
 
-// Classes that collect the changes of the Euler characteristic at voxels. Each class has one Part
-// per thread. A Part takes rows of keys and changes, and adds them to the whole in add_to_all.
+// The classes below collect the changes of the Euler characteristic at voxels. Each class has one
+// Part per thread. A Part receives rows of keys and changes, and adds them to the whole in
+// add_to_all.
 namespace ph::vectors {
 
 /// Calls use(i) for all voxels with a non-zero change, and possibly for other voxels.

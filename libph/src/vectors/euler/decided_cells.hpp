@@ -95,7 +95,8 @@ class DecidedCells {
 
   std::size_t axes_, length_;
   bool is_circle_;
-  // A neighbour outside precedes nothing (V), or comes after all voxels (T).
+  // The mask of a neighbour outside the image. In the V-construction, this neighbour precedes no
+  // voxel. In the T-construction, it comes after all voxels.
   Mask outside_;
   bool has_own_;  // true if the cell of the zero direction counts 1, otherwise it counts -1
   std::vector<Direction> directions_;

@@ -11,9 +11,9 @@
 
 namespace ph::vectors {
 
-/// An image as layers along its first axis, which consist of rows along its last axis. The image
-/// has at least two axes. If necessary, axes of one voxel are added, which do not change the Euler
-/// characteristic.
+/// An image that is divided into layers along its first axis. A layer consists of rows along the
+/// last axis. The image has at least two axes. If necessary, axes of one voxel are added, which do
+/// not change the Euler characteristic.
 struct Layered {
   CubicalImage image;
   std::vector<std::size_t> extents;
@@ -91,7 +91,7 @@ class ThreeLayers {
   std::size_t wrapped(std::size_t layer) const {
     if (layer < of_.layers()) return layer;
     if (!of_.periodic.front()) return kNone;  // mutant: euler-first-axis
-    // Before the first layer, or after the last layer.
+    // `layer` is kNone before the first layer, otherwise the number after the last layer.
     return layer == kNone ? of_.layers() - 1 : 0;
   }
   void load(std::size_t layer, int to) {

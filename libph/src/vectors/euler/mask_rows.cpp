@@ -22,7 +22,7 @@ template <class T>
 template <class Sum>
 [[gnu::always_inline]] inline void join(Mask* masks, const Mask* a, const Mask* b, const Mask* c,
                                         std::size_t count, bool adds, Sum* sum) {
-  // As a number, a mask is -1.
+  // Read as a signed number, a mask with all bits set is -1.
   if (adds)
     for (std::size_t i = 0; i < count; ++i) {
       masks[i] = static_cast<Mask>(masks[i] & a[i] & b[i] & c[i]);
