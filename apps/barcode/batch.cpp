@@ -126,7 +126,7 @@ void require_separate(const std::vector<Places>& all, const Job& job, app::Sessi
   require_separate(inputs, outputs, job, session);
 }
 
-/// Warns about outputs that were asked for and will not be written.
+/// Warns about outputs that were requested but will not be written.
 void explain_unwritten(const Job& job, BarcodeFormat format, app::Session& session) {
   std::vector<std::string> unwritten, estimated;
   const bool is_named = job.places.output != "-";
@@ -159,7 +159,7 @@ void explain_unwritten(const Job& job, BarcodeFormat format, app::Session& sessi
                              fmt::join(estimated, ", ")));
 }
 
-/// Notes options for bars that were given and have no effect, because only the merge tree is
+/// Notes which of the given options for bars have no effect, because only the merge tree is
 /// written.
 void explain_unseen_bars(const Job& job, BarcodeFormat format, app::Session& session) {
   const bool is_seen = format != BarcodeFormat::none || !job.places.report.empty() ||
@@ -177,7 +177,7 @@ void explain_unseen_bars(const Job& job, BarcodeFormat format, app::Session& ses
                              fmt::join(given, ", ")));
 }
 
-/// Runs one of several inputs, and writes one line to stderr for any outcome. @return the exit
+/// Processes one of several inputs, and writes one line to stderr for any outcome. @return the exit
 /// code.
 /// @throws Error if the other inputs need not be tried.
 int run_one(const Job& job, app::Session& session) {

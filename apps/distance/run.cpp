@@ -128,7 +128,7 @@ class Run {
     return dims;
   }
 
-  /// The distances of two barcodes, and the pairs of their bars.
+  /// The distances between two barcodes, and the pairs of their bars.
   PairDistances matched(const std::vector<Barcode>& barcodes, const std::vector<int>& dims,
                         std::vector<DimMatching>& matchings) const {
     PairDistances distances(2, dims, &context_.memory);

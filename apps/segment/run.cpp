@@ -62,8 +62,8 @@ void require_separate(const Arguments& a, app::Session& session) {
     session.explain("--force: not needed, no output is an input");
 }
 
-/// Segments the cloud. If memory does not suffice, adds the options that help to the error. Only
-/// the program knows these options.
+/// Segments the cloud. If memory does not suffice, the error also names the options that help,
+/// because only the program knows these options.
 Segmentation segment_within_limits(const Cloud& cloud, const SegmentOptions& options,
                                    const RunContext& context) {
   try {

@@ -148,7 +148,7 @@ class Stream {
   Arguments one_;  // the arguments for the current frame
   app::Session& session_;
   FrameSource source_;
-  // Including the names that have come from a pipe so far.
+  // The inputs known so far, including the names that a pipe has delivered.
   app::InputFiles known_;
   bool replaces_input_ = false;
   std::optional<app::Output> json_;

@@ -31,7 +31,7 @@ void add_homology_options(app::Options& options, Job& job);
 /// Registers the options that apply only to Rips complexes: collapse, samples, approximation,
 /// weights.
 void add_rips_options(app::Options& options, Job& job);
-/// Checks that at most one option gives weights, and that no option excludes weights.
+/// Checks that at most one option gives weights, and that no other option forbids weights.
 void check_rips_arguments(Job& job);
 
 /// Registers the options that apply only to alpha complexes.

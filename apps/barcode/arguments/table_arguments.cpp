@@ -68,7 +68,7 @@ void check_table_arguments(Job& job) {
     if (job.reading.options.nan == NanPolicy::drop)
       throw Error(ErrorKind::usage,
                   "--delay: excludes --nan drop: no time may be missing in a time series");
-    // This reads an array of one or two axes.
+    // An array that is read as an image may have one axis or two axes.
     if (job.reading.format == Format::automatic) meaning = ArrayMeaning::image;
   }
   if (job.reading.format == Format::distance) meaning = ArrayMeaning::distances;

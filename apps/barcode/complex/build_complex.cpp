@@ -245,8 +245,8 @@ class Builder {
     return {std::move(complex), std::move(name), job_.question.threshold, empty};
   }
 
-  /// The values of the vertices for the lower star of listed simplices. They come from --values or
-  /// from the lines of the vertices.
+  /// The values of the vertices for the lower star of listed simplices. They are read from --values
+  /// or from the lines of the vertices.
   std::vector<double> vertex_values(const SimplicesInput& input) const {
     if (!input.vertex_values.empty()) return input.vertex_values;
     const SimplexList& list = input.simplices;

@@ -12,7 +12,7 @@
 
 namespace ph::barcode {
 
-/// A complex with the facts that the user is told about it.
+/// A complex, and the facts about it that are reported to the user.
 struct BuiltComplex {
   AnyComplex complex;
   std::string name;  ///< "rips", "cubical", "explicit", "lower-star", "alpha", …
@@ -58,7 +58,7 @@ decltype(auto) in_name_of(const std::string& name, Work&& work) {
   }
 }
 
-/// Chooses the complex that the arguments ask for, or otherwise the complex that suits the data. A
+/// Chooses the complex that the arguments request, or otherwise the complex that suits the data. A
 /// Rips complex refers to the points of the input, which must live as long as the complex.
 /// @param name the name of the input, for messages. @param dropped the number of points of the
 /// input that were left out.

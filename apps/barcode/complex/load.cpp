@@ -87,7 +87,7 @@ bool may_be_bars(const ReadResult& read) {
       has_bars =
           read_stored_barcode(Input::open(files::path_of(job.places.input), &context)).bars.size() >
           0;
-      // This time, the file could not be read as a barcode either.
+      // The file cannot be read as a barcode either.
     } catch (const std::exception&) {
     }
   }

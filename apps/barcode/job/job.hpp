@@ -88,8 +88,8 @@ struct Surface {
   std::string option() const { return is_wrap ? "--wrap" : "--alpha-shape"; }
 };
 
-/// One input, and the destinations of its results. If there are several inputs, the command line
-/// has folders or patterns here, and each input gets its own places.
+/// One input, and the destinations of its results. If there are several inputs, the destinations in
+/// the job are folders or patterns, and each input gets places of its own.
 struct Places {
   std::string input = {};  ///< if empty, the inputs are the inputs of the job
   std::string output = "-";
@@ -133,11 +133,11 @@ struct Job {
   std::vector<app::GivenOption> given;
   bool of_batch = false;  ///< true if `places` belongs to one input of a batch
 
-  /// True if the command line asks for a plot of the merge tree.
+  /// True if the command line requests a plot of the merge tree.
   bool draws_tree() const;
-  /// True if a single input is computed in parts. These are one part with --part, or all parts on
-  /// ranks. False if --part selects some of several inputs. The input is an image, unless --complex
-  /// rips says that it consists of points.
+  /// True if a single input is computed in parts. With --part, the run computes one part. On ranks,
+  /// it computes all parts. False if --part selects some of several inputs. The input is an image,
+  /// unless --complex rips says that it consists of points.
   bool wants_part_of_one() const;
   bool wants_image_part() const {
     return wants_part_of_one() && question.complex != ComplexKind::rips;

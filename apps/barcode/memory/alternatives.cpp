@@ -78,7 +78,7 @@ std::string alternatives(const Job& job, app::Session& session) {
     for (const Fit& fit : what_fits(built.complex, job.question.options, context))
       texts.push_back(text_of(fit, job));
     if (texts.empty()) return "";
-    // No estimate knows how many cells of an image are critical.
+    // The estimate cannot predict how many cells of an image are critical.
     const bool is_image = std::holds_alternative<Image>(data.read.data);
     return fmt::format("what {} fit: {}", is_image ? "may" : "would", fmt::join(texts, "; "));
   } catch (const Error& error) {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// This program, ph-barcode-mpi, computes the barcode of one image, or of points, on all ranks of
-// MPI.
+// This program, ph-barcode-mpi, computes the barcode of one image, or of points, on all MPI ranks.
 #include <fmt/format.h>
 
 #include <algorithm>

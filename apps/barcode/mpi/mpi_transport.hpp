@@ -4,7 +4,7 @@
 
 namespace ph::barcode {
 
-/// The ranks of MPI. At most one such object exists, and it lives as long as the program uses MPI.
+/// The MPI ranks. At most one such object exists, and it lives as long as the program uses MPI.
 /// Only the thread that made it uses it (MPI_THREAD_FUNNELED). A failure of MPI ends all ranks.
 class MpiTransport final : public Transport {
  public:

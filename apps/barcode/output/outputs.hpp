@@ -37,7 +37,7 @@ class Outputs {
 /// image instead of their negatives.
 PlotOptions look_of(PlotOptions look, bool superlevel);
 
-/// Warns about dimensions that plots were asked to show and that have no bars.
+/// Warns about dimensions that were requested for plots but have no bars.
 void note_absent_dims(const Barcode& bars, const PlotOptions& look, app::Session& session);
 
 }  // namespace ph::barcode

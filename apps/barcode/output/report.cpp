@@ -90,7 +90,8 @@ std::optional<report::ShownTree> tree_if_it_fits(const Shown& shown, app::Sessio
   return std::nullopt;
 }
 
-/// Adds the distances of two barcodes, one for each dimension in which either has bars.
+/// Adds the distances between two barcodes, one for each dimension in which either barcode has
+/// bars.
 /// @param matched receives the numbers of the bars that are paired.
 /// @return the dimensions that would take long, such as "H1: 50000 bars".
 std::vector<std::string> add_distances(report::Metadata& meta, std::span<const Barcode, 2> barcodes,
@@ -166,7 +167,7 @@ int run_comparison(const Job& job, app::Session& session) try {
   }
   std::vector<std::uint32_t> matched;
   const auto left_out = add_distances(meta, std::span(barcodes).first<2>(), matched, session);
-  // This is also stated here, because not all formats have room for it.
+  // The dimensions left out are also noted here, because not all formats have room for them.
   for (const std::string& what : left_out)
     session.note(fmt::format("left out: {}; at most {} are compared", what, kMostComparedBars));
   meta.provenance.run.peak_memory = app::peak_memory();

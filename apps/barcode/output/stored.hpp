@@ -19,14 +19,14 @@ inline std::string fewer_bars() {
   return "take fewer bars, or raise " + mark(Setting::memory_limit);
 }
 
-/// Reads a stored barcode and writes what the job asks for, such as a converted file, a plot or a
+/// Reads a stored barcode and writes what the job requests, such as a converted file, a plot or a
 /// report.
 /// @throws Error (usage) if a plot needs more than bars; Error like read_barcode and OutputFile.
 Outcome run_stored(const Job& job, const Input& input, Outputs& outputs, app::Session& session);
 
-/// The formats of the distances of two barcodes.
+/// The formats for the distances between two barcodes.
 enum class DistanceFormat { text, csv, json };
-/// The file of the distances of two barcodes.
+/// The content of a file with the distances between two barcodes.
 std::string distances_file(const std::vector<report::Distance>& distances,
                            std::span<const Barcode> barcodes,
                            const std::vector<std::string>& left_out, const Job& job,

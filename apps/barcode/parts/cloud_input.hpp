@@ -17,8 +17,9 @@ struct CloudInput {
   CloudPartOptions options;
 };
 
-/// @param input a path. The data stay in the file if the file has the layout of memory.
-/// @throws Error (usage) if the input is not points, or if more than components is requested.
+/// @param input a path. The data stay in the file if they have the same layout there as in memory.
+/// @throws Error (usage) if the input does not consist of points, or if more than components is
+/// requested.
 CloudInput read_cloud_input(const std::string& input, const Job& job, app::Session& session);
 
 /// The part in a file, if it is this part of this cloud, complete, and not older than the cloud.

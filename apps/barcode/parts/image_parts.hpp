@@ -14,7 +14,7 @@
 
 namespace ph::barcode {
 
-/// Prints what an image in parts will need, and computes nothing.
+/// Prints a forecast of what an image in parts will need, and computes nothing else.
 /// @param process as in forecast_text.
 Outcome foresee(const PartInput& read, int parts, std::string_view process);
 

@@ -35,16 +35,16 @@ class InputsPart {
   bool is_whole() const { return numbers_.size() == static_cast<std::size_t>(whole_.parts); }
   /// The results, sorted by the number of the input.
   std::span<const Result> results() const { return results_; }
-  /// The number of the part that an input belongs to. Consecutive inputs are often alike. They are
-  /// assigned to different parts in turn.
+  /// The number of the part that an input belongs to. Consecutive inputs are often alike, and are
+  /// therefore assigned to different parts in turn.
   static int part_of(std::size_t input, int parts) {
     return static_cast<int>(input % static_cast<std::size_t>(parts));
   }
 
-  /// Inputs must come in ascending order.
+  /// Results must be added in ascending order of their inputs.
   void add(Result result) { results_.push_back(std::move(result)); }
-  /// @throws Error (bad_data) if the other part has different inputs or options, or if both contain
-  /// the same part. In this case nothing has changed.
+  /// @throws Error (bad_data) if the other part has different inputs or options, or if both objects
+  /// contain the same part. In this case, this object stays unchanged.
   void join(InputsPart other);
 
   std::vector<std::byte> bytes() const;

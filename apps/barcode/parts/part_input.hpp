@@ -15,7 +15,7 @@ struct PartInput {
   std::string description;  ///< such as "image of 64 x 96 voxels, PGM"
 };
 
-/// @param input a path. The data stay in the file if the file has the layout of memory.
+/// @param input a path. The data stay in the file if they have the same layout there as in memory.
 /// @param keeps_cells true if bars keep their cells.
 /// @throws Error (usage) if the input is not an image, and on options that do not apply to images.
 PartInput read_part_input(const std::string& input, bool keeps_cells, const Job& job,

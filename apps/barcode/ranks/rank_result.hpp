@@ -27,7 +27,7 @@ struct RankResult {
 
 /// Computes an image on all ranks. With --dry-run, prints what the ranks will need instead.
 RankResult image_of_ranks(const Job& job, Transport& transport, app::Session& session);
-/// Computes the components of a point cloud on all ranks, with some blocks on each.
+/// Computes the components of a point cloud on all ranks, with some blocks on each rank.
 /// @throws Error (usage) like read_cloud_input.
 RankResult cloud_of_ranks(const Job& job, Transport& transport, app::Session& session);
 

@@ -35,7 +35,7 @@ std::vector<std::string> long_names(const CLI::App& app) {
   const std::vector<std::string_view> views(known.begin(), known.end());
   // A name that was typed with one dash instead of two is also looked up.
   const std::string dashed = name.starts_with("--") ? name : "-" + name;
-  // By its letters, another option would be nearer, but these words mean the highest dimension.
+  // These words mean the highest dimension, although another option is spelled more similarly.
   const std::string_view word = std::string_view(dashed).substr(2);
   const bool is_dimension = word == "dim" || word == "maxdim" || word == "dimension";
   const auto most = std::ranges::find_if(

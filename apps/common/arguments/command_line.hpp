@@ -37,7 +37,7 @@ void add_common_options(Options& options, CommonOptions& common);
 /// The command line as it was typed, under the program's own name.
 std::vector<std::string> typed_command(std::string_view program, int argc, const char* const* argv);
 /// The given options, each as a long name and its values, in the order of --help. A command line
-/// with these options does the same again. Common options and INPUT are left out.
+/// with these options repeats the run. Common options and INPUT are left out.
 /// @param without long names to leave out, without dashes.
 std::vector<std::string> given_options(const Options& options,
                                        std::span<const std::string_view> without);

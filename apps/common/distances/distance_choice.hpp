@@ -31,7 +31,7 @@ inline constexpr std::array names_of<app::DistanceKind>{
 
 namespace ph::app {
 
-/// The distance of barcodes to compute, and the required accuracy.
+/// The kind of distance to compute between barcodes, and the required accuracy.
 struct DistanceChoice {
   DistanceKind kind = DistanceKind::bottleneck;
   double wasserstein_order = 1;
@@ -50,7 +50,8 @@ struct DistanceChoice {
 /// Returns words such as "Wasserstein distance (order 2, ground norm inf)".
 std::string words_of(const DistanceChoice& choice);
 
-/// The distance of bars of one dimension. @throws Error like the functions of ph/distances.hpp.
+/// The distance between two barcodes in one dimension. @throws Error like the functions of
+/// ph/distances.hpp.
 DistanceBounds distance_of(std::span<const Bar> a, std::span<const Bar> b,
                            const DistanceChoice& choice,
                            const RunContext& context = default_context());

@@ -11,7 +11,7 @@
 
 namespace ph::app {
 
-/// A file that a program writes, and the option that asks for it, such as "--report".
+/// A file that a program writes, and the option that requests it, such as "--report".
 struct Written {
   std::string_view option;
   std::string path;

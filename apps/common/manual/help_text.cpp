@@ -15,7 +15,7 @@ namespace ph::app {
 namespace {
 
 constexpr std::size_t kWidth = 80;  // the number of columns of a terminal
-constexpr std::size_t kText = 27;   // the column of the text beside a name
+constexpr std::size_t kText = 27;   // the column of the text next to a name
 constexpr std::string_view kAll = "all";
 
 /// A topic whose text is for other programs instead of people.
@@ -27,7 +27,7 @@ constexpr std::array kPages{Page{"man", man_page}, Page{"markdown", markdown_pag
                             Page{"bash", bash_completion}, Page{"zsh", zsh_completion},
                             Page{"fish", fish_completion}};
 
-/// A name with a text beside it. The text is below the name if the name is long or has several
+/// A name with a text next to it. The text is below the name if the name is long or has several
 /// lines.
 std::string entry(std::string_view name, std::string_view text) {
   std::string lines = fmt::format("  {}", name);

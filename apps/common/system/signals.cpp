@@ -20,8 +20,8 @@
 namespace ph::app {
 namespace {
 
-// A handler may use only lock-free atomics and memory that does not move. These are therefore
-// globals. Like signals, they belong to the process.
+// A handler may use only lock-free atomics and memory that does not move. The variables below are
+// therefore globals. Like signals, they belong to the process.
 constexpr std::array kSignals{SIGINT, SIGTERM, SIGHUP};
 
 std::atomic<int> first_signal{0};
@@ -58,7 +58,7 @@ void on_signal(int signal) {
 
 /// This signal arrives at the instruction that reads, never within a message or a system call.
 void on_lost_page(int signal, siginfo_t* what, void*) {
-  // A bug of the program, which has the same effect as without a handler.
+  // A bug in the program caused the signal, which then has the same effect as without a handler.
   if (what->si_code != BUS_ADRERR) {
     std::signal(signal, SIG_DFL);
     return;

@@ -13,8 +13,8 @@
 namespace ph::app {
 namespace {
 
-// A handler may use only lock-free atomics and memory that does not move. These are therefore
-// globals. Like signals, they belong to the process.
+// A handler may use only lock-free atomics and memory that does not move. The variables below are
+// therefore globals. Like signals, they belong to the process.
 constexpr std::size_t kSlots = 64;
 constexpr std::size_t kLongestName = 4096;
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 // This header declares the classes of CLI11, because the header of CLI11 takes seconds to compile
-// and few files call it.
+// and few files use it.
 
 namespace CLI {
 

@@ -21,8 +21,8 @@ class PairDistances {
   std::size_t count() const { return count_; }
   const std::vector<int>& dims() const { return dims_; }
   std::size_t pairs() const { return count_ * (count_ - 1) / 2; }
-  /// The distance of the barcodes a and b, where b < a. @param dim the index of the dimension in
-  /// dims().
+  /// The distance between the barcodes a and b, where b < a. @param dim the index of the dimension
+  /// in dims().
   DistanceBounds& at(std::size_t dim, std::size_t a, std::size_t b) {
     return bounds_[dim * pairs() + a * (a - 1) / 2 + b];
   }

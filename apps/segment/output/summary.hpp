@@ -17,7 +17,7 @@ std::string text_summary(const Segmentation& segmentation);
 /// The place where two segments join, in one line. @throws Error (usage) like first_meeting.
 std::string explanation(const Segmentation& segmentation, std::uint32_t a, std::uint32_t b);
 
-/// One line about the run, which states how much of the cloud each stage has left.
+/// One line about the run, which also states how many points are in range and before the plane.
 std::string one_line_summary(const Segmentation& segmentation);
 
 }  // namespace ph::segment

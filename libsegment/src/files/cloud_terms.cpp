@@ -144,7 +144,7 @@ class Terms {
     }
   }
 
-  /// The alpha value is opaque unless the cloud has an alpha channel.
+  /// The alpha value of a point. It is opaque if the cloud has no alpha channel.
   std::uint32_t alpha(std::size_t point) const {
     if (alpha_ == nullptr) return 0xFF;
     return static_cast<std::uint32_t>(cloud_.data[point * cloud_.stride + alpha_->offset]);

@@ -25,7 +25,7 @@ constexpr int kFiner = 2;       // the picture is drawn this many times larger, 
 constexpr double kMargin = 0.12;
 // The brightness of points with neither colour nor normal.
 constexpr int kUsual = 190;
-// The share of the eye's distance; nearer points count as behind the eye.
+// Points nearer to the eye than this share of the eye's distance count as behind the eye.
 constexpr double kNearest = 0.02;
 
 Vector3d vector(const Vec3& v) { return {v[0], v[1], v[2]}; }
@@ -37,7 +37,7 @@ struct Shown {
   std::vector<std::uint32_t> segments;  ///< indices of the points in a segment
 };
 
-/// The colour of a segment, made as bright as the camera saw the point.
+/// The colour of a segment, mixed with the brightness of the point as the camera saw it.
 std::uint32_t shaded(std::uint32_t colour, int grey) {
   std::uint32_t result = 0;
   for (const int shift : {16, 8, 0}) {
@@ -144,7 +144,7 @@ class Camera {
     if (!at) return std::nullopt;
     return scale_ * (*at - low_);
   }
-  /// The pixels that a length takes at a depth.
+  /// The number of pixels per unit of length at a depth.
   double scale_at(double depth) const { return scale_ / depth; }
 
  private:
@@ -231,7 +231,7 @@ std::vector<Pixel> draw(const Shown& shown, const Camera& camera, const Spacing&
   return pixels;
 }
 
-/// Darkens a pixel beside something much nearer, so that outlines become visible. This is eye-dome
+/// Darkens a pixel next to something much nearer, so that outlines become visible. This is eye-dome
 /// lighting (Boucheny 2009).
 double light_at(const std::vector<Pixel>& pixels, int width, int height, int x, int y) {
   constexpr int reach = 3;
@@ -276,9 +276,10 @@ Raster averaged(const Shown& shown, const std::vector<Pixel>& pixels, int width,
   return raster;
 }
 
-/// For each segment, the place at which its number is written. Of the visible pixels with the most
-/// room around them inside the segment, it is the pixel nearest to the middle of the segment. Empty
-/// if too few of its pixels are visible.
+/// For each segment, the place at which its number is written. The candidates are the visible
+/// pixels that have the most room around them inside the segment. The place is the candidate that
+/// is nearest to the middle of the segment. There is no place if too few pixels of the segment are
+/// visible.
 std::vector<std::optional<std::array<double, 2>>> middles_of(const Shown& shown,
                                                              const std::vector<Pixel>& pixels,
                                                              int width, int height,
@@ -309,7 +310,7 @@ std::vector<std::optional<std::array<double, 2>>> middles_of(const Shown& shown,
     seen[i].x += x;
     seen[i].y += y;
   });
-  /// Counts how many of these distances can be walked left, right, up and down without leaving the
+  /// Counts how many of four distances can be walked left, right, up and down without leaving the
   /// segment.
   const auto room_at = [&](int x, int y) {
     const std::uint32_t label = label_at(x, y);

@@ -310,7 +310,7 @@ class TreeReader {
       if (std::floor(point[k] / scene_.voxel) != cell[k]) return false;
     return true;
   }
-  /// True if the point may have been won back from a removed plane for this voxel.
+  /// True if the point may have been recovered from a removed plane for this voxel.
   bool may_be_base(const Vec3& point, std::uint32_t v) const {
     if (scene_.method == Method::paper) return false;
     const auto removed = std::span(scene_.surfaces).first(static_cast<std::size_t>(scene_.removed));

@@ -7,11 +7,12 @@
 
 namespace ph::segment {
 
-/// Wins back the base of each object. The base is the strip of the object that is within the margin
-/// of the plane and was therefore taken for the plane. If the lowest point beyond the margin over a
-/// small square of the plane is just beyond the margin, the points of the strip over the same
-/// square join this point's voxel. A wall has a lowest point just beyond the margin. The free plane
-/// beside it has no such point. Centroids and counts of the voxels do not change.
+/// Recovers the base of each object. The base is the strip of the object that is within the margin
+/// of the plane and was therefore taken for the plane. The plane is divided into small squares. For
+/// each square, the function finds the lowest point over the square that is beyond the margin. If
+/// this point is just beyond the margin, it belongs to the wall of an object. In this case, the
+/// points of the strip over the square join the voxel of this point. Over the free plane next to a
+/// wall, there is no such point. Centroids and counts of the voxels do not change.
 /// @param strip the points within the margin. @param side the side of a square, in metres.
 /// @param points the points in the grid, which are beyond the margin or behind the plane. The
 /// points of the bases are appended.

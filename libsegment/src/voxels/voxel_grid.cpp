@@ -87,7 +87,7 @@ class VoxelTable {
 double cell_of(double units) {
   constexpr double huge = 1ULL << 52;  // doubles of at least this size have no fraction
   if (!(std::abs(units) < huge)) return std::floor(units) + 0.0;
-  // A call of floor for each coordinate would take a third of the grid's time.
+  // Calling floor for each coordinate would take a third of the time for the grid.
   const auto whole = static_cast<double>(static_cast<std::int64_t>(units));
   return (whole > units ? whole - 1 : whole) + 0.0;
 }
@@ -108,8 +108,8 @@ std::vector<std::uint32_t> in_order_of_grid(const std::vector<Voxel>& voxels) {
     low[axis] = least.*member;
     size[axis++] = most.*member - least.*member + 1;
   }
-  // The cells of the box around all voxels are numbered. With 2^52 added, the last bits of the
-  // double are this number, which the radix sort needs.
+  // The cells of the box around all voxels are numbered. When 2^52 is added to a number, the last
+  // bits of the double are this number, as the radix sort requires.
   constexpr double whole = 1ULL << 52;
   if (size[0] * size[1] * size[2] < whole) {
     std::vector<double> place;

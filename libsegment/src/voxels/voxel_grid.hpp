@@ -13,7 +13,7 @@ struct VoxelGrid {
   std::vector<Vec3> cells;
   Points centroids;                     ///< mean of the points of each voxel, one per row, metres
   std::vector<Index> counts;            ///< number of points in each voxel
-  std::vector<std::uint32_t> voxel_of;  ///< the voxel of each inserted point, in their order
+  std::vector<std::uint32_t> voxel_of;  ///< the voxel of each inserted point, in order of insertion
 };
 
 /// Sorts points into cubes with edge `voxel`. Takes O(points + voxels log voxels) time. The result

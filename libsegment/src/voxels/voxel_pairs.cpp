@@ -108,8 +108,9 @@ VoxelPairs close_voxels(const VoxelGrid& grid, double voxel, double reach,
   std::vector<Offset> offsets = offsets_within(reach);
   const double square_of_radius = std::pow(reach * voxel, 2);
   VoxelPairs pairs(&context.memory);
-  // This reserves room for the pairs on a curved surface: half of the disk around each voxel, and a
-  // third more. Growing the list would copy all pairs and use three times the memory.
+  // On a flat surface, each voxel forms pairs with half of the disk around it. A third more is
+  // reserved for curved surfaces. Growing the list would copy all pairs and use three times the
+  // memory.
   const double disk = 4.0 / 3 * std::numbers::pi * reach * reach;
   pairs.reserve(static_cast<std::size_t>(disk / 2 * static_cast<double>(grid.cells.size())));
   const auto most_of_voxel = static_cast<std::size_t>(2 * std::ceil(reach) + 1);

@@ -21,7 +21,7 @@ struct VoxelPair {
 
 using VoxelPairs = RawVector<VoxelPair>;
 
-/// All pairs of voxels whose centroids are closer than a number of voxels, in an order that depends
+/// All pairs of voxels whose centroids are closer than `reach` voxels, in an order that depends
 /// only on the voxels. Takes O(rows * reach^2 + pairs) time, and needs no tree or hash.
 /// @param voxel the edge of a voxel of the grid, in metres. @param reach the number of voxels, > 0.
 /// It must be small, because the search visits all offsets within it. @throws Error (usage) like

@@ -13,7 +13,7 @@
 namespace ph::app {
 namespace {
 
-// There is one signal for each process, like the messages of the console.
+// The messages of the console belong to the process. There is therefore one signal per process.
 std::atomic<int> first_signal{0};
 std::mutex mutex;
 std::stop_source* watched = nullptr;  // protected by the mutex

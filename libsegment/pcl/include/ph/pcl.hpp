@@ -15,11 +15,12 @@
 #include "ph/error.hpp"
 #include "ph/segment.hpp"
 
-/// Accepts clouds of the Point Cloud Library and returns its indices and labels. Clouds are read in
-/// place; with indices, their coordinates are copied. PCL's types occur in this header only.
+/// The functions and the class below accept clouds of the Point Cloud Library (PCL), and return
+/// PCL's indices and labels. A cloud is read in place. If indices select some of its points, the
+/// coordinates are copied instead. PCL's types occur only in this header.
 namespace ph::pcl {
 
-/// The x, y, z of all points; a point that is not in `indices` becomes a hole.
+/// The coordinates x, y and z of all points. A point that is not in `indices` becomes a hole.
 /// @throws Error (bad_data) on an index beyond the cloud.
 template <class PointT>
 std::vector<float> coordinates(const ::pcl::PointCloud<PointT>& cloud,
@@ -52,8 +53,9 @@ segment::Vec3 viewpoint(const ::pcl::PointCloud<PointT>& cloud) {
   return {double{origin[0]}, double{origin[1]}, double{origin[2]}};
 }
 
-/// The cloud as the pipeline reads it; it keeps its rows and columns if all its points lie in them.
-/// @param xyz the `coordinates` of the cloud; they must outlive the view.
+/// The cloud in the form that the pipeline reads. It keeps its rows and columns if they contain all
+/// its points.
+/// @param xyz the result of `coordinates` for this cloud, which must outlive the view.
 template <class PointT>
 segment::CloudView cloud_view(const ::pcl::PointCloud<PointT>& cloud, std::span<const float> xyz) {
   segment::CloudView view{xyz, viewpoint(cloud)};
@@ -64,8 +66,9 @@ segment::CloudView cloud_view(const ::pcl::PointCloud<PointT>& cloud, std::span<
   return view;
 }
 
-/// The same view without a copy; the cloud must outlive it. All point types of PCL store x, y and z
-/// side by side. @throws Error (usage) if another type does not.
+/// The same view without a copy of the coordinates. The cloud must outlive the view. All point
+/// types of PCL store x, y and z side by side. @throws Error (usage) if another type of points does
+/// not.
 template <class PointT>
 segment::CloudView cloud_view(const ::pcl::PointCloud<PointT>& cloud) {
   static_assert(sizeof(PointT) % sizeof(float) == 0, "points lie at whole numbers of floats");
@@ -81,7 +84,7 @@ segment::CloudView cloud_view(const ::pcl::PointCloud<PointT>& cloud) {
   return view;
 }
 
-/// ph::segment::segment on a PCL cloud, which is read in place.
+/// Calls ph::segment::segment for a PCL cloud, which is read in place.
 template <class PointT>
 segment::Segmentation segment_cloud(const ::pcl::PointCloud<PointT>& cloud,
                                     const segment::SegmentOptions& options = {},
@@ -117,8 +120,8 @@ inline std::vector<::pcl::PointIndices> surface_indices(const segment::Segmentat
   return surfaces;
 }
 
-/// Copies a cloud to another type of points, with the same order and organisation: x, y, z of each
-/// point, and whatever `paint(i, point)` adds.
+/// Copies a cloud to another type of points, with the same order, rows and columns. Each point gets
+/// its coordinates, and whatever `paint(i, point)` adds.
 template <class To, class PointT, class Paint>
 ::pcl::PointCloud<To> converted(const ::pcl::PointCloud<PointT>& cloud,
                                 const std::vector<std::uint32_t>& labels, Paint&& paint) {
@@ -152,7 +155,7 @@ template <class PointT>
       cloud, labels, [&](std::size_t i, ::pcl::PointXYZL& p) { p.label = labels[i]; });
 }
 
-/// The points in the colours of their segments; points without a segment are grey.
+/// The points in the colours of their segments. Points without a segment are grey.
 template <class PointT>
 ::pcl::PointCloud<::pcl::PointXYZRGB> coloured_cloud(const ::pcl::PointCloud<PointT>& cloud,
                                                      const segment::SceneCut& cut) {
@@ -168,7 +171,8 @@ template <class PointT>
 }
 
 /// The pipeline with the interface of PCL's segmentations: setInputCloud, setIndices, segment. All
-/// lengths are in metres; no option is an angle. The defaults are those of segment::SegmentOptions.
+/// lengths are in metres, and no option is an angle. The defaults are the defaults of
+/// segment::SegmentOptions.
 template <class PointT>
 class PersistenceSegmentation : public ::pcl::PCLBase<PointT> {
  public:
@@ -183,7 +187,8 @@ class PersistenceSegmentation : public ::pcl::PCLBase<PointT> {
   /// The rule that decides which voxels belong together: surface (default), paper or supervoxels.
   void setMethod(Method method) { options_.method = method; }
   Method getMethod() const { return options_.method; }
-  /// Points farther from the viewpoint than this are left out; metres, may be infinite.
+  /// The largest distance from the viewpoint, in metres. Points farther away are left out. The
+  /// distance may be infinite.
   void setMaxRange(double metres) { options_.max_range = metres; }
   double getMaxRange() const { return options_.max_range; }
   /// Only points inside this box are used.
@@ -191,7 +196,7 @@ class PersistenceSegmentation : public ::pcl::PCLBase<PointT> {
     options_.crop = segment::Box{{min[0], min[1], min[2]}, {max[0], max[1], max[2]}};
   }
   void unsetCropBox() { options_.crop.reset(); }
-  /// The default is all of space: from -infinity to infinity.
+  /// The default box is all of space, from -infinity to infinity.
   void getCropBox(Eigen::Vector3f& min, Eigen::Vector3f& max) const {
     constexpr float infinity = std::numeric_limits<float>::infinity();
     min.setConstant(-infinity), max.setConstant(infinity);
@@ -203,14 +208,14 @@ class PersistenceSegmentation : public ::pcl::PCLBase<PointT> {
   /// If true, the supporting plane and everything behind it are removed.
   void setPlaneRemoval(bool remove) { options_.plane = remove; }
   bool getPlaneRemoval() const { return options_.plane; }
-  /// Half the thickness of the plane, metres.
+  /// Half the thickness of the plane, in metres.
   void setPlaneDistance(double metres) { options_.plane_distance = metres; }
   double getPlaneDistance() const { return options_.plane_margin(); }
-  /// Half the thickness of the plane is at least this at a range of one metre, in metres; the limit
-  /// grows with the square of the range.
+  /// The least value for half the thickness of the plane at a range of one metre, in metres. This
+  /// least value grows with the square of the range.
   void setPlaneNoise(double metres) { options_.plane_noise = metres; }
   double getPlaneNoise() const { return options_.plane_noise; }
-  /// The supporting plane of the previous frame; unsetPlaneGuess forgets it.
+  /// The supporting plane of the previous frame. unsetPlaneGuess removes it.
   void setPlaneGuess(const segment::Plane& plane) { options_.plane_guess = plane; }
   void unsetPlaneGuess() { options_.plane_guess.reset(); }
   const std::optional<segment::Plane>& getPlaneGuess() const { return options_.plane_guess; }
@@ -219,7 +224,8 @@ class PersistenceSegmentation : public ::pcl::PCLBase<PointT> {
   /// cloud states.
   void setViewPoint(float x, float y, float z) { options_.viewpoint = segment::Vec3{x, y, z}; }
   void useSensorOriginAsViewPoint() { options_.viewpoint.reset(); }
-  /// The sensor position that was set, or else the one that the input cloud states.
+  /// The sensor position that was set with setViewPoint. If none was set, the position that the
+  /// input cloud states.
   void getViewPoint(float& x, float& y, float& z) const {
     segment::Vec3 point{};
     if (this->input_) point = viewpoint(*this->input_);
@@ -227,40 +233,41 @@ class PersistenceSegmentation : public ::pcl::PCLBase<PointT> {
     x = static_cast<float>(point[0]), y = static_cast<float>(point[1]);
     z = static_cast<float>(point[2]);
   }
-  /// Edge of a voxel, metres.
+  /// The edge of a voxel, in metres.
   void setVoxelSize(double metres) { options_.voxel = metres; }
   double getVoxelSize() const { return options_.voxel_size(); }
-  /// Fewest voxels of a segment.
+  /// The fewest voxels of a segment.
   void setMinClusterSize(Index voxels) { options_.min_size = voxels; }
   Index getMinClusterSize() const { return options_.cut().min_size; }
-  /// Methods surface and supervoxels: least persistence of a part, in units of the noise (surface)
-  /// or in metres (supervoxels).
+  /// Methods surface and supervoxels: the least persistence of a part, in units of the noise
+  /// (surface) or in metres (supervoxels).
   void setMinPersistence(double persistence) { options_.min_persistence = persistence; }
   double getMinPersistence() const { return options_.part_persistence(); }
-  /// Method supervoxels: the largest distance of the surface from a seed, metres.
+  /// Method supervoxels: the largest distance from the surface to a seed, in metres.
   void setSpacing(double metres) { options_.spacing = metres; }
   double getSpacing() const { return options_.spacing; }
-  /// Methods surface and supervoxels: fewest voxels of a part.
+  /// Methods surface and supervoxels: the fewest voxels of a part.
   void setMinPartSize(Index voxels) { options_.min_part = voxels; }
   Index getMinPartSize() const { return options_.cut().min_part; }
   /// Method surface: true if the visible parts of an object are joined.
   void setObjects(bool join) { options_.objects = join; }
   bool getObjects() const { return options_.objects; }
-  /// Method paper: maximum distance of the Vietoris-Rips complex, metres.
+  /// Method paper: the maximum distance of the Vietoris-Rips complex, in metres.
   void setDistance(double metres) { options_.distance = metres; }
   double getDistance() const { return options_.distance; }
-  /// Method paper: number of levels up to the distance; 0 for exact deaths.
+  /// Method paper: the number of levels up to this distance, or 0 for exact deaths.
   void setSteps(int steps) { options_.steps = steps; }
   int getSteps() const { return options_.steps; }
-  /// If true, union-find is compared with the reduction of the boundary matrix.
+  /// If true, the result of union-find is compared with the reduction of the boundary matrix.
   void setCheck(bool check) { options_.check = check; }
   bool getCheck() const { return options_.check; }
 
-  /// The context that stops, watches and bounds `segment` and `cut`; it must outlive their calls.
+  /// The context that stops, monitors and limits calls of `segment` and `cut`. It must outlive
+  /// these calls.
   void setRunContext(const RunContext& context) { context_ = &context; }
 
-  /// The points of each segment, largest first. Empty without an input cloud.
-  /// @throws ph::Error like ph::segment::segment.
+  /// Stores the points of each segment in `clusters`, the largest segment first. Without an input
+  /// cloud, there are no segments. @throws ph::Error like ph::segment::segment.
   void segment(std::vector<::pcl::PointIndices>& clusters) {
     clusters.clear();
     result_ = segment::Segmentation();
@@ -273,8 +280,8 @@ class PersistenceSegmentation : public ::pcl::PCLBase<PointT> {
     clusters = point_indices(result_.cut, this->input_->header);
     this->deinitCompute();
   }
-  /// Cuts the tree of the last call of `segment` more coarsely or more finely, within milliseconds;
-  /// the getters below then describe this cut.
+  /// Cuts the tree of the last call of `segment` more coarsely or more finely, within milliseconds.
+  /// The getters below then describe this cut.
   /// @param value see segment::CutOptions. @throws ph::Error (usage) on a value out of its range.
   void cut(double value, std::vector<::pcl::PointIndices>& clusters) {
     segment::CutOptions options = result_.tree.first_cut;
@@ -286,18 +293,19 @@ class PersistenceSegmentation : public ::pcl::PCLBase<PointT> {
     clusters = point_indices(result_.cut, this->input_ ? this->input_->header : ::pcl::PCLHeader());
   }
 
-  /// Everything that the last call found: segments with boxes and neighbours, the tree, times.
+  /// The entire result of the last call: the segments with boxes and neighbours, the tree, and
+  /// times.
   const segment::Segmentation& result() const { return result_; }
   const std::vector<segment::Segment>& getSegments() const { return result_.cut.segments; }
-  /// The supports and walls, which are not segments; Segment::on names the support of a segment.
+  /// The supports and walls, which are not segments. Segment::on names the support of a segment.
   const std::vector<segment::SceneSurface>& getSurfaces() const { return result_.tree.surfaces; }
-  /// The points on each of these surfaces.
+  /// The points on each surface that getSurfaces returns.
   std::vector<::pcl::PointIndices> getSurfaceIndices() const {
     return surface_indices(result_, this->input_ ? this->input_->header : ::pcl::PCLHeader());
   }
   /// The merge tree, with the data that other cuts need.
   const segment::SceneTree& getTree() const { return result_.tree; }
-  /// The persistence of each segment; infinite for a segment that touches no other.
+  /// The persistence of each segment. It is infinite for a segment that touches no other segment.
   std::vector<double> getConfidences() const {
     std::vector<double> confidences;
     for (const segment::Segment& s : result_.cut.segments) confidences.push_back(s.persistence);
@@ -313,8 +321,8 @@ class PersistenceSegmentation : public ::pcl::PCLBase<PointT> {
       coefficients.values.push_back(static_cast<float>(n));
     coefficients.values.push_back(static_cast<float>(result_.tree.plane->offset));
   }
-  /// The box of a segment: its axes are the columns of `rotation`. @param i number of the segment,
-  /// counted from 0.
+  /// The box of a segment. The axes of the box are the columns of `rotation`. @param i the number
+  /// of the segment, counted from 0.
   void getOrientedBox(std::size_t i, Eigen::Vector3f& centre, Eigen::Matrix3f& rotation,
                       Eigen::Vector3f& size) const {
     const segment::OrientedBox& box = result_.cut.segments.at(i).oriented_box;
@@ -325,14 +333,14 @@ class PersistenceSegmentation : public ::pcl::PCLBase<PointT> {
     size = vector(box.size);
     for (int k = 0; k < 3; ++k) rotation.col(k) = vector(box.axes[static_cast<std::size_t>(k)]);
   }
-  /// The label of each point of the input cloud; 0 for points outside the indices. Empty without
-  /// an input cloud.
+  /// The label of each point of the input cloud. Points outside the indices have the label 0. The
+  /// result is empty without an input cloud.
   ::pcl::PointCloud<::pcl::PointXYZL> getLabeledCloud() const {
     if (!this->input_) return {};
     return labelled_cloud(*this->input_, result_.cut.labels);
   }
-  /// The input cloud with segments in their colours and the rest in grey. Empty without an input
-  /// cloud.
+  /// The input cloud with segments in their colours and all other points in grey. The result is
+  /// empty without an input cloud.
   typename ::pcl::PointCloud<::pcl::PointXYZRGB>::Ptr getColoredCloud() const {
     const auto coloured = ::pcl::make_shared<::pcl::PointCloud<::pcl::PointXYZRGB>>();
     if (this->input_) *coloured = coloured_cloud(*this->input_, result_.cut);
