@@ -17,7 +17,8 @@
 
 namespace ph::test {
 
-/// A pair with its cells. Pairs of length 0 are included: two engines must agree on all of them.
+/// A pair with its cells. Pairs of length 0 are included, because engines must agree on them as
+/// well.
 struct Pair {
   Bar bar;
   std::vector<Index> birth_cell, death_cell;
@@ -272,7 +273,7 @@ void check_engines(const F& f, int max_dim, std::int64_t field) {
   }
 }
 
-/// THE SUITE for one filtration: checks its contract, and every engine over each field.
+/// Runs the suite for one filtration: checks its contract, and every engine over each field.
 template <Filtration F>
 void check(const F& f, int max_dim, std::initializer_list<std::int64_t> fields = {2, 3, 5}) {
   max_dim = std::min(max_dim, std::max(0, f.top_dim()));

@@ -145,7 +145,7 @@ inline Points circle(Index n) {
   }
   return p;
 }
-/// The distance of two points of the circle that are `steps` apart.
+/// The distance between two points of the circle that are `steps` apart.
 inline double chord(Index n, Index steps) {
   return 2 * std::sin(std::numbers::pi * static_cast<double>(steps) / static_cast<double>(n));
 }

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Runs a program in a separate folder. Shared by the tests that drive programs."""
+"""Runs a program in a separate folder. Shared by the tests that run programs."""
 import os
 import re
 import subprocess

@@ -31,7 +31,7 @@ inline std::vector<std::uint8_t> base64_decoded(std::string_view text) {
   return bytes;
 }
 
-/// The numbers in an array's element of a report, as the page reads them.
+/// The numbers in the element of a report that stores an array, as the page reads them.
 /// @throws std::runtime_error if there are not exactly `count`.
 template <class T>
 std::vector<T> numbers_of(const std::string& element, std::size_t count, std::size_t columns) {

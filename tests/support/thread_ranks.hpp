@@ -33,7 +33,7 @@ class ThreadRanks {
   ThreadRanks(int size, std::mt19937* delays) : size_(size) {
     for (int i = 0; i < size && delays != nullptr; ++i) naps_.push_back((*delays)());
   }
-  /// Makes something happen to the message with this number, counted over all ranks.
+  /// Plans a mishap for the message with this number, counted over all ranks.
   void plan(Mishap mishap, int message) {
     mishap_ = mishap;
     unlucky_ = message;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Alpha complexes of points that are difficult for rounding, for exact signs, or for the running
-// time.
+// Alpha complexes of difficult points. Rounding, exact signs, or the running time make them
+// difficult.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -38,8 +38,8 @@ TEST(AlphaAdverse, PointsNearlyOnASphere) {
   EXPECT_EQ(bars.bars(2).size(), 1U);
 }
 
-// The eight corners of a cube are on a sphere only up to rounding: the signs must be exact for the
-// rounded points.
+// The eight corners of a cube are on a sphere only up to rounding. The signs must still be exact
+// for the rounded points.
 TEST(AlphaAdverse, GridsThatDoublesCannotHold) {
   for (const double step : {0.1, 1.0 / 3, 0.7}) {
     Points grid(343, 3);
@@ -117,7 +117,7 @@ TEST(AlphaAdverse, SquaresThatNoDoubleHolds) {
   EXPECT_NO_THROW(Alpha(times(uniform_points(20, 3, 2), 1e150), options));
 }
 
-// The triangle is nearly flat: even in units of the largest coordinate, the square of its radius
+// The triangle is nearly flat. Even in units of the largest coordinate, the square of its radius
 // exceeds the range of doubles.
 TEST(AlphaAdverse, RadiiOfWhichNoDoubleHoldsTheSquare) {
   for (const bool weighted : {false, true}) {

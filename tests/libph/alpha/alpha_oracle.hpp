@@ -32,7 +32,7 @@ struct ExactSphere {
   Rational squared_radius;
 };
 
-/// Nothing if the points are affinely dependent.
+/// Returns nothing if the points are affinely dependent.
 inline std::optional<ExactSphere> exact_sphere(const std::vector<RationalPoint>& points,
                                                const std::vector<Rational>& weights) {
   const std::size_t m = points.size() - 1;
@@ -111,10 +111,10 @@ std::vector<OracleBar> oracle_bars(const std::vector<std::pair<Rational, Simplex
 }
 
 /// A simplex is a set of points, stored as bits. It is in the complex if the Voronoi cells (power
-/// cells) of its points meet, and its value is the least power of a point in the intersection with
-/// respect to the points of the simplex. All such simplices are listed; for cospherical points, a
-/// triangulation has fewer. The simplices up to a value form the nerve of the balls restricted to
-/// Voronoi cells, which has the homology of the union of the balls.
+/// cells) of its points meet. Its value is the least power of a point in the intersection with
+/// respect to the points of the simplex. All such simplices are listed, although a triangulation
+/// has fewer for cospherical points. The simplices up to a value form the nerve of the balls
+/// restricted to Voronoi cells, which has the homology of the union of the balls.
 class AlphaOracle {
  public:
   AlphaOracle(PointsView points, const std::vector<double>& weights) {

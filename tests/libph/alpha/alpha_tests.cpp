@@ -222,7 +222,7 @@ TEST(Alpha, CopiesJoinAtZero) {
 
 TEST(Alpha, HiddenPointsAreNamed) {
   // Up to the value 7.25, the power of the first point is less than the power of the second point.
-  // From 4.67 on, the power of the third point is less than both.
+  // From 4.67 on, the power of the third point is less than both other powers.
   const Alpha alpha(Points{{0, 0, 0}, {0.5, 0, 0}, {9, 0, 0}, {0, 0, 0}},
                     {.weights = {4, -3, 1, 3}, .unit = AlphaOptions::Unit::squared});
   EXPECT_EQ(std::vector<std::uint32_t>(alpha.hidden().begin(), alpha.hidden().end()),
@@ -265,8 +265,8 @@ TEST(Alpha, Threshold) {
   });
 }
 
-// The radius of the smallest ball around the points: the smallest ball through a subset of the
-// points that contains all of them.
+// The radius of the smallest ball around the points. This ball is the smallest ball through a
+// subset of the points that contains all of them.
 double smallest_ball(const Points& points, const std::vector<Index>& simplex) {
   const AlphaOracle oracle(in_order(points, simplex), {});
   double least = kInfinity;
@@ -391,7 +391,7 @@ TEST(Alpha, StopsAndKeepsToItsMemory) {
   LimitedContext small(10 << 20);
   expect_error(ErrorKind::resource, "memory limit", [&] { Alpha(points, {}, small); });
   EXPECT_EQ(small.memory.used(), 0U);
-  // CGAL's memory counts as well: in the plane, it is the larger part.
+  // CGAL's memory counts as well. In the plane, it is the larger part.
   RunContext of_plane;
   Alpha(uniform_points(20'000, 2, 11), {}, of_plane);
   EXPECT_GT(of_plane.memory.peak(), 20'000U * 200);

@@ -54,7 +54,7 @@ inline Integer determinant(const std::vector<std::vector<Integer>>& m) {
          m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
 }
 
-/// Nothing if the points are affinely dependent.
+/// Returns nothing if the points are affinely dependent.
 inline std::optional<IntegerSphere> integer_sphere(const std::vector<IntegerPoint>& points,
                                                    const std::vector<Integer>& weights) {
   const std::size_t m = points.size() - 1;

@@ -159,8 +159,8 @@ TEST(Periodic, EveryEngineFindsTheBarsOfTheOracle) {
   });
 }
 
-// The points form a lattice: edge lengths and the radii of triangles and tetrahedra are computed by
-// hand.
+// The images of the point form a lattice. Its edge lengths and the radii of its triangles and
+// tetrahedra were computed by hand.
 TEST(Periodic, OnePointIsALattice) {
   const Barcode circle = persistence(Alpha(Points{{7.5}}, {.period = {2}}));
   ASSERT_EQ(circle.size(), 2U);
@@ -203,7 +203,7 @@ TEST(Periodic, TwiceTheLengthIsTwiceTheSame) {
     const PeriodicCloud once = [&] {
       PeriodicCloud cloud = any_periodic_cloud(random, dim, 12, false);
       while ((cloud.name[0] == 'g') != ties) cloud = any_periodic_cloud(random, dim, 12, false);
-      // Makes the coordinates numbers that can be added without rounding.
+      // Rounds the coordinates to numbers that can be added without rounding errors.
       for (double& x : cloud.points.coordinates())
         x = std::ldexp(std::round(std::ldexp(x, 20)), -20);
       for (double& x : cloud.period) x = std::ldexp(std::round(std::ldexp(x, 20)), -20);

@@ -37,7 +37,8 @@ std::vector<Simplex> facets_of(const Simplex& simplex) {
   return facets;
 }
 
-/// The triangles whose number of tetrahedra in a set is not 2, each with this number.
+/// For each triangle that is not a facet of exactly two tetrahedra of a set, the number of these
+/// tetrahedra.
 std::map<Simplex, int> surface_of(const std::set<Simplex>& set) {
   std::map<Simplex, int> sides;
   for (const Simplex& simplex : set)

@@ -54,7 +54,7 @@ TEST(ForEachInput, SharesThreadsAndMemoryOut) {
       EXPECT_EQ(of_input.memory.limit(), 600U);
     });
   }
-  // Memory taken by one input is not available to the others.
+  // Memory taken by one input is not available to the other inputs.
   context.threads = 1;
   for_each_input(2, context, [&](std::size_t i, const RunContext& of_input) {
     const MemoryClaim most(of_input.memory, 600);

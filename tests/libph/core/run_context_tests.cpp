@@ -30,7 +30,7 @@ TEST(MemoryBudgets, CountAndRefuse) {
   EXPECT_NO_THROW(budget.require(400));
   expect_error(ErrorKind::resource, "memory limit", [&] { budget.require(401); });
   expect_error(ErrorKind::resource, "memory limit", [&] { budget.require(SIZE_MAX); });
-  // Volatile, because the compiler would warn about a constant.
+  // The number is volatile, because the compiler would warn about a constant.
   const volatile std::size_t huge = SIZE_MAX - 8;
   expect_error(ErrorKind::resource, "memory limit", [&] { (void)budget.allocate(huge, 8); });
   void* b = budget.allocate(400, 64);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Loops of volumes in parts, with any order of work and of messages: compares them with the same
-// volumes as a whole. Covers any number of parts, both constructions, holes, infinities, ties,
+// volumes as a whole. Covers any number of parts, both constructions, holes, infinities, ties and
 // periodic axes.
 #include "ph/parts/image_loops.hpp"
 
@@ -231,7 +231,8 @@ std::vector<Pair> finished(Begun all) {
   return pairs;
 }
 
-// Enough columns for several threads, and for rounds in which threads take pivots from each other.
+// There are enough columns for several threads, and for rounds in which threads take pivots from
+// each other.
 TEST(ImageLoops, ThreadsDoNotMatter) {
   for (const Construction construction : {Construction::vertices, Construction::cells}) {
     Generator random(7);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Images in parts that are computed independently and joined in random groups: compares them with
 // the same images as a whole. Covers any number of parts, both constructions, holes, infinities,
-// ties, periodic axes.
+// ties and periodic axes.
 #include "ph/parts/image_part.hpp"
 
 #include <gtest/gtest.h>
@@ -119,8 +119,8 @@ TEST(ImagePart, RefusesLayersThatAreNone) {
   EXPECT_EQ(first.last(), 1);
 }
 
-// The result does not depend on how parts are grouped. Images with holes are left out: of two holes
-// that have always existed, either may be closed first.
+// The result does not depend on how parts are grouped. Images with holes are left out, because
+// either of two holes that have always existed may be closed first.
 TEST(ImagePart, WhatIsKeptDoesNotDependOnGroups) {
   int compared = 0;
   for_each_seed(1000, [&](Generator& random) {
@@ -220,7 +220,8 @@ TEST(ImagePart, RefusesDamagedBytes) {
       damaged[i] ^= flipped;
       ASSERT_TRUE(is_refused(damaged)) << i;
     }
-  // The checksum is corrected: a changed value may be accepted, but a changed list may not.
+  // The checksum is corrected. A changed value may therefore be accepted, but a changed list may
+  // not.
   for (std::size_t i = 0; i < content.size(); ++i)
     for (const std::byte flipped : {std::byte{1}, std::byte{4}, std::byte{0x84}}) {
       std::vector<std::byte> damaged(content.begin(), content.end());

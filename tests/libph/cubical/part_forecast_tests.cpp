@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Forecasts for images in parts: checks the first layers that they propose, for any image, and
-// compares the predicted numbers of bytes with the actual ones.
+// compares the predicted numbers of bytes with the actual numbers.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Images that are read one slab at a time: compares them with the same images as a whole. Covers
-// slabs of any height, all types of voxels, both constructions, holes, periodic axes.
+// slabs of any height, all types of voxels, both constructions, holes and periodic axes.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -170,8 +170,8 @@ TEST(Slabs, RefuseLoopsOfTooManyVoxels) {
                [&] { persistence(cubical); });
 }
 
-// Noise has more critical cells than voxels: its loops do not fit into memory, but everything else
-// does.
+// Noise has more critical cells than voxels. Its loops therefore do not fit into memory, but
+// everything else does.
 TEST(Slabs, SayWhenLoopsDoNotFit) {
   Generator random(4);
   const Image image = random_image<std::uint16_t>(random, {150, 60, 60}, 60000);

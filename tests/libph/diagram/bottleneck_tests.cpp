@@ -112,8 +112,8 @@ TEST(Bottleneck, IsThatOfGrowingMatchings) {
   }
 }
 
-// The bars of both diagrams alternate in a row, and the unmatched bars are at its ends: paths
-// between unmatched bars are long.
+// The bars of both diagrams alternate in a row, and the unmatched bars are at its ends. The paths
+// between unmatched bars are therefore long.
 TEST(Bottleneck, OfBarsInARow) {
   std::mt19937 random(6);
   for (int round = 0; round < 20; ++round) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Sliced Wasserstein distances, distances of many diagrams, barycentres.
+// Sliced Wasserstein distances, distances between many diagrams, barycentres.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -27,8 +27,8 @@ Spans spans_of(const std::vector<Bars>& diagrams) { return {diagrams.begin(), di
 
 // ---- sliced Wasserstein
 
-/// The distance of two sets of numbers: the integral over x of the absolute difference between the
-/// numbers of elements below x in each set.
+/// The distance between two sets of numbers. It is the integral over x of the absolute difference
+/// between the numbers of elements below x in each set.
 double between(std::vector<std::pair<double, int>> numbers) {
   std::ranges::sort(numbers);
   double sum = 0;

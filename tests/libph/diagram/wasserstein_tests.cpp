@@ -239,7 +239,7 @@ TEST(Wasserstein, BarsWithoutEndAreForEachOther) {
   const Bars b = {{0, 3.5, kInfinity}, {0, 0.25, kInfinity}};
   EXPECT_EQ(wasserstein_distance(a, b).value, 1.25);
   EXPECT_EQ(wasserstein_distance(a, b, {.order = 2}).value, std::sqrt(0.5625));
-  // Bars that are equal in both diagrams do not reduce the precision of the others.
+  // Bars that are equal in both diagrams do not reduce the precision of the other bars.
   const Bars equal = {{0, 0, 5}, {0, 0, kInfinity}, {0, 100, kInfinity}, {0, 200, kInfinity}};
   const Bars moved = {{0, 0, 5}, {0, 19, kInfinity}, {0, 118, kInfinity}, {0, 205, kInfinity}};
   EXPECT_EQ(wasserstein_distance(equal, moved).value, 42);

@@ -2,7 +2,7 @@
 // Clouds in parts that are computed independently and joined in random groups and orders: compares
 // them with all pairs of points (by Prim's algorithm, implemented here) and with the same cloud as
 // a whole. Covers any number of parts, blocks and sample points, ties, copies, lattices, lines,
-// clusters far apart, thresholds.
+// clusters far apart, and thresholds.
 #include "ph/parts/cloud_part.hpp"
 
 #include <gtest/gtest.h>
@@ -182,7 +182,8 @@ TEST(CloudPart, OfManyPoints) {
   });
 }
 
-// A part is computed independently of the others. It holds its block and the points near the block.
+// A part is computed independently of other parts. It holds its block and the points near the
+// block.
 TEST(CloudPart, LeavesOutWhatIsFar) {
   Generator random(1);
   const Points points = random.points(200000, 2, false);

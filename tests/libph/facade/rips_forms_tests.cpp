@@ -362,7 +362,7 @@ TEST(RipsInputs, ForgottenTheyLeaveWhatWasMade) {
   EXPECT_EQ(pairs_of(run(alone, by_points)), expected);
 }
 
-/// A metric that can tell whether any object still holds it.
+/// A metric with a token that shows whether any object still holds the metric.
 struct Held {
   std::shared_ptr<int> token = std::make_shared<int>(0);
   Index size() const { return 9; }

@@ -168,7 +168,8 @@ TEST(VoxelImage, IsTheDistanceToTheNearestOccupiedVoxel) {
 }
 
 TEST(VoxelImage, CountsPointsAndTellsWhereTheyAre) {
-  // The first of three voxels has two points, the second none, and the last one.
+  // The first of three voxels contains two points, the second contains none, and the third contains
+  // one.
   const Points points{{0.1}, {0.9}, {2.5}};
   const auto values = [&](VoxelValue value) {
     const PointImage image = voxel_image(points, 1, value, 0);
@@ -245,7 +246,7 @@ TEST(VoxelImage, RefusesWhatItCannotDo) {
   EXPECT_EQ(kind(two, 0.01, VoxelValue::distance, Index{1}, little), ErrorKind::resource);
 }
 
-// An image with a single line: the memory for processing a line is as large as the image.
+// An image with a single line. Processing a line takes as much memory as the image.
 TEST(VoxelImage, CountsWhatALineTakes) {
   const Points ends{{0}, {1000}};
   const auto with_limit = [&](std::size_t bytes) {

@@ -88,7 +88,7 @@ class TempDir {
   std::filesystem::path path_;
 };
 
-/// An input whose bytes count towards the run's memory budget, like those of an opened file.
+/// An input whose bytes count towards the run's memory budget, like the bytes of an opened file.
 inline Input held(const std::string& bytes, const std::string& name, const RunContext& context) {
   return Input::hold(std::pmr::vector<char>(bytes.begin(), bytes.end(), &context.memory), name,
                      &context);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Closed walks of cycles of edges: checks that the walks of a chain, or of the representative of a
-// bar, add up to the chain.
+// Closed walks into which cycles of edges are split: checks that the walks of a chain, or of the
+// representative of a bar, add up to the chain.
 #include <gtest/gtest.h>
 
 #include <algorithm>

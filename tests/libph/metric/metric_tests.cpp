@@ -281,8 +281,8 @@ TEST(SparseDistanceSets, TheSearchStopsOnRequest) {
   }
 }
 
-// Rows of distances equal single distances bit by bit: the method of computation must not decide
-// ties.
+// Rows of distances equal single distances bit for bit, because the method of computation must not
+// decide ties.
 TEST(RowDistancesOf, APointMetricAreItsDistances) {
   for_each_seed(300, [](Generator& random, bool ties, std::int64_t) {
     const Index n = random.integer(0, 70);

@@ -93,7 +93,8 @@ TEST(PointsViews, AreTheSamePointsInAnyLayout) {
     const Index n = points.rows(), d = points.cols();
     const Eigen::MatrixXd by_columns = as_matrix(points);
     expect_same_from(by_columns, points, field);
-    // Every second row of a matrix and its columns 1 to d, in row-major and column-major order.
+    // Views of every second row and of the columns 1 to d of a matrix, in row-major and
+    // column-major order.
     PointMatrix wide = PointMatrix::Constant(2 * n + 1, d + 2, 77);
     Eigen::MatrixXd wide_by_columns = wide;
     for (Index i = 0; i < n; ++i) {

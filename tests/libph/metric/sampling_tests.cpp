@@ -93,7 +93,7 @@ TEST(GreedyPermutations, AreWhatTheyAreByDefinition) {
   });
 }
 
-// Several full blocks of points, and an incomplete one.
+// There are several full blocks of points, and an incomplete block.
 TEST(GreedyPermutations, OfManyPoints) {
   Generator random(3);
   for (const Index n : {511, 512, 513, 2000}) {

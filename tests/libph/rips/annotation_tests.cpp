@@ -23,8 +23,8 @@ std::vector<std::uint32_t> numbers_of(const NumberSet& set) {
   return numbers;
 }
 
-// Compares with std::set. Small sets are lists and large ones are bits; sets of both kinds are
-// added to each other.
+// Compares with std::set. Small sets are lists, and large sets are rows of bits. Sets of both kinds
+// are added to each other.
 TEST(NumberSet, IsASet) {
   for_each_seed(300, [](Generator& random, bool, std::int64_t) {
     std::pmr::memory_resource* memory = std::pmr::get_default_resource();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Edges found from points alone give the same pairs as all edges, cell by cell, in spite of ties.
+// Edges found from points alone give the same pairs as all edges, cell by cell, even with ties.
 #include <cmath>
 #include <numbers>
 
@@ -122,7 +122,7 @@ TEST(BetaSkeleton, ThousandsOfPoints) {
   });
 }
 
-// One hole that lives long, and many that are born after others have died.
+// One hole lives long, and many holes are born after others have died.
 TEST(BetaSkeleton, HolesOfManySizes) {
   for_each_seed(60, [](Generator& random, bool, std::int64_t field) {
     const Index d = random.integer(2, 3), n = random.integer(150, 400);
@@ -137,7 +137,7 @@ TEST(BetaSkeleton, HolesOfManySizes) {
   });
 }
 
-// Many edges have nearly the same length: their bins are split into narrower ones.
+// Many edges have nearly the same length. Their bins are therefore split into narrower bins.
 TEST(BetaSkeleton, RegularPolygons) {
   for (const Index n : {3, 6, 30, 300, 1'500}) {
     SCOPED_TRACE(n);

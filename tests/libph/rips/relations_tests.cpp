@@ -59,7 +59,7 @@ class Oracle {
 };
 
 // Checks the result of `substitute`: living generators are units, and dead generators are sums of
-// living ones.
+// living generators.
 template <class Relations>
 void check_substitution(const Relations& relations, const Oracle& oracle, std::size_t generators,
                         auto&& substitute) {

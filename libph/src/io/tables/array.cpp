@@ -65,7 +65,7 @@ std::size_t count_elements(const Input& input, const ArrayLayout& layout,
                            const std::vector<Index>& extents) {
   std::optional<std::size_t> bytes = layout.type.size;
   for (const Index extent : extents) {
-    // An extent of 0 must not hide an overflow of the others.
+    // An extent of 0 must not hide an overflow of the other extents.
     if (bytes) bytes = checked_product(*bytes, static_cast<std::size_t>(extent));
   }
   const std::size_t there = input.size() - layout.offset;

@@ -84,8 +84,7 @@ TEST(KnownSpaces, RipsOfACircle) {
   }
 }
 
-// With the maximum distance, the complex of a product is the product of the complexes, up to
-// homotopy.
+// In the maximum metric, the complex of a product is the product of the complexes, up to homotopy.
 TEST(KnownSpaces, RipsOfAFlatTorus) {
   const Rips small(FlatSurface{5, 5});
   check(small, 1, {2, 3});
@@ -107,7 +106,8 @@ TEST(KnownSpaces, RipsOfAFlatKleinBottle) {
   EXPECT_EQ(betti_at(persistence(rips, {.max_dim = 2, .field = 11}), 1, 2), (Betti{1, 1, 0}));
 }
 
-// The vertices +-e_k of R^(d+1): opposite vertices are 2 apart, others sqrt(2).
+// The vertices are +-e_k in R^(d+1). Opposite vertices are 2 apart, and all other pairs are sqrt(2)
+// apart.
 TEST(KnownSpaces, RipsOfCrossPolytopes) {
   for (int dim = 1; dim <= 4; ++dim) {
     Points points(2 * (dim + 1), dim + 1);

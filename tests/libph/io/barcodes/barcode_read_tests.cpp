@@ -51,7 +51,7 @@ TEST(ReadBarcode, EmptyOnesToo) {
   bad_data([] { back("\n# nothing\n"); });
 }
 
-// --significance writes p-values beside bars.
+// --significance writes p-values next to the bars.
 TEST(ReadBarcode, ValuesOfPMayFollow) {
   const auto stored = [](const std::string& text) {
     return read_stored_barcode(Input::view(text, "b.csv"));
