@@ -355,7 +355,8 @@ Outcome run(const Job& job, app::Session& session) {
   } catch (const std::bad_alloc&) {
     what = "out of memory";
   }
-  // Everything that the run stored has been freed by now. This makes the heap return the memory.
+  // Everything that the run stored has been freed by now. This call makes the heap return the
+  // memory to the system.
   app::give_back_freed_memory();
   session.loosen_heap_bound();
   const std::string peak = format_size(static_cast<double>(session.memory_taken()));

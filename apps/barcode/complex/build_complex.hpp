@@ -19,7 +19,7 @@ struct BuiltComplex {
   /// The threshold of its values; empty if all values are present.
   std::optional<double> threshold;
   bool empty = false;  ///< true if there are no points or cells at all
-  // This text is the same as the member of BarcodeInfo.
+  // This text is the same as in the member of BarcodeInfo with this name.
   std::string vertex_weights = {};
   std::string metric = {};
   std::optional<CubicalOptions> cubical = std::nullopt;  ///< for an image

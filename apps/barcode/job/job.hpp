@@ -52,7 +52,7 @@ struct Reading {
   std::optional<Delay> delay;  ///< empty if the input is not a time series
 };
 
-/// The question about an input: a complex, and the task for its homology.
+/// The computation that an input requires: a complex, and the task for its homology.
 struct Question {
   ComplexKind complex = ComplexKind::automatic;
   const OwnComplex* own_complex = nullptr;  ///< for ComplexKind::own

@@ -7,9 +7,9 @@
 
 namespace ph::app {
 
-/// Names for the outputs of inputs. Each is the shortest unique name of an input, without its
-/// extension, with its extension, or with its folders. Two inputs have the same name only if the
-/// same file was named twice.
+/// Names for the outputs of several inputs. Each name is the shortest unique name of an input:
+/// without its extension, with its extension, or with its folders. Two inputs have the same name
+/// only if the same file was named twice.
 std::vector<std::string> output_names(const std::vector<std::string>& inputs);
 
 /// True if a path has a place for the name of each input, because it is FOLDER/ or the file name

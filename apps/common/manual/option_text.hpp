@@ -34,7 +34,7 @@ struct OptionText {
   std::string description;
   std::string topic;                  ///< the name of a Topic
   Values values;                      ///< the alternatives that the placeholder states
-  std::vector<std::string> excludes;  ///< related options, in alphabetical order
+  std::vector<std::string> excludes;  ///< options that it cannot be combined with, sorted by name
   bool is_input = false;
   bool is_repeatable = false;
 
@@ -42,7 +42,7 @@ struct OptionText {
   const std::string& name() const;
   /// Returns a text such as "-o,--output FILE".
   std::string head() const;
-  /// The description, with the options that this option excludes.
+  /// The description, with the options that this option cannot be combined with.
   std::string text() const;
   /// The first part of the description, which does not state the default.
   std::string brief() const;

@@ -6,9 +6,10 @@
 
 namespace ph::app {
 
-/// Makes the kernel refuse memory. The budget of a RunContext counts only large containers. This
-/// limit bounds all other memory. An allocation beyond the limit fails with std::bad_alloc. The
-/// limit with which the process was started is never exceeded, and is restored at the end.
+/// Makes the kernel refuse memory beyond a limit. The budget of a RunContext counts only large
+/// containers. The kernel's limit bounds all other memory. An allocation beyond the limit fails
+/// with std::bad_alloc. The limit with which the process was started is never exceeded, and is
+/// restored at the end.
 class HeapBound {
  public:
   HeapBound();

@@ -29,9 +29,9 @@ class SignalWatch {
   std::thread thread_;
 };
 
-/// While this object lives, signals do not end the process. It is used while a file that must be
-/// removed if a signal arrives is not registered yet. Only one thread at a time may have such an
-/// object.
+/// While this object lives, signals do not end the process. It is used while a new file is not
+/// registered yet, because a signal would then leave the file behind. Only one thread at a time may
+/// have such an object.
 class SignalsWait {
  public:
   SignalsWait();

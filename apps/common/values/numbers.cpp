@@ -19,8 +19,7 @@ namespace {
                                             expected, hint.empty() ? "" : "; ", hint));
 }
 
-/// The number that from_chars reads from a text, and the number of characters that it used. An
-/// optional '+' is accepted.
+/// The number at the start of a text, and the rest of the text. An optional '+' is accepted.
 struct Read {
   double value = 0;
   std::string_view rest;

@@ -24,7 +24,7 @@ struct Known {
               *plot_view = nullptr;
 };
 
-/// Registers the options for the stages before the plane is removed.
+/// Registers the options for the stages up to the removal of the plane.
 void add_scene_options(app::Options& options, SegmentOptions& to);
 Known add_method_options(app::Options& options, SegmentOptions& to);
 /// Registers the options that also apply to a stored tree, and refuses contradictions.

@@ -17,7 +17,7 @@ namespace {
   throw Error(ErrorKind::usage, fmt::format("chain: found {}, expected {}", found, expected));
 }
 
-/// Appends the numbers of the start of an edge, then the numbers of its end.
+/// Appends the numbers that name the start of an edge, then the numbers that name its end.
 void append_ends(const InputCell& edge, std::span<const Index> periods,
                  std::pmr::vector<Index>& ends) {
   const std::span<const Index> numbers = edge.numbers;
@@ -184,8 +184,8 @@ class Decomposition {
     return any;
   }
 
-  /// Removes all walks that can be reached from a vertex. A path never gets stuck: what is left of
-  /// the chain is a cycle, and each vertex on the path therefore has another edge.
+  /// Removes all walks that can be reached from a vertex. A path never gets stuck, because the rest
+  /// of the chain is a cycle. Each vertex on the path therefore has another edge.
   void walk_from(std::uint32_t start) {
     path_.clear();
     place_[start] = 0;
@@ -231,7 +231,7 @@ class Decomposition {
   std::int64_t p_;
   std::size_t size_, arity_ = 1;
   Ticker ticker_;
-  std::pmr::vector<Index> numbers_;  // the numbers of the start and of the end of each edge
+  std::pmr::vector<Index> numbers_;  // the numbers that name the start and the end of each edge
   std::pmr::vector<std::uint32_t> first_of_;  // for each vertex, one of the edge ends at the vertex
   std::pmr::vector<std::uint32_t> tail_, head_;
   std::pmr::vector<std::int64_t> left_;  // remaining coefficient of each edge, from 0 to p - 1

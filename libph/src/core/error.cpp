@@ -79,8 +79,8 @@ std::string neutral(Setting setting, std::string_view value) {
   return text;
 }
 
-/// The text of all parts in the words of a program. @return nothing if the text contains a setting
-/// for which the program has no name.
+/// The text of all parts, where the words of a program replace the marks. @return nothing if the
+/// text contains a setting for which the program has no name.
 std::optional<std::string> rendered(std::string_view text, const Words& words) {
   std::string result;
   bool has_words = true;

@@ -13,11 +13,12 @@ namespace ph {
 namespace {
 
 // Runs Borůvka's algorithm. In each round, every component takes its first edge to another
-// component. A point of another component is called foreign. Rounds are cheap because the distance
-// from a point to its nearest foreign point never decreases. Each point stores a few nearest
-// neighbours, which are found once. The first foreign point among them is its nearest foreign
-// point. If none of them is foreign, the last of them gives a lower bound. The tree is searched
-// only if this bound does not exceed the best edge that the component already has.
+// component, in the order of the filtration. A point of another component is called foreign. Rounds
+// are cheap because the distance from a point to its nearest foreign point never decreases. Each
+// point stores a few nearest neighbours, which are found once. The first foreign point among them
+// is its nearest foreign point. If none of them is foreign, the last of them gives a lower bound.
+// The tree is searched only if this bound does not exceed the best edge that the component already
+// has.
 class Boruvka {
  public:
   Boruvka(const KdTree& tree, const NeighbourSearch& search, const PointMetric& metric,

@@ -152,7 +152,7 @@ class Painter {
     paint(text.colour, 1);
   }
 
-  /// Takes the nearest pixel of the picture for each output pixel.
+  /// Copies the nearest pixel of the picture to each output pixel.
   void operator()(const Picture& picture) {
     const Raster& from = *picture.raster;
     const auto whole = [this](double points) { return std::lround(scale_ * points); };

@@ -20,9 +20,9 @@ struct Range {
   }
 };
 
-/// Returns a range that is longer than 0. This is the given range if possible. If the given range
-/// is a single number, it is an interval of length `width` around that number. If the given range
-/// is empty, it is [0, width].
+/// Returns a range that is longer than 0. The result is the given range if possible. If the given
+/// range is a single number, the result is an interval of length `width` around that number. If the
+/// given range is empty, the result is [0, width].
 Range widened(const Range& range, double width) {
   if (range.lo > range.hi) return {0, width};
   if (range.lo < range.hi) return range;

@@ -13,8 +13,8 @@ constexpr double kStep = 6;
 /// In the first round, the increment is raised whenever this many bids per bar have been made.
 constexpr std::uint64_t kBidsAStep = 3;
 
-/// An upper bound for the rounding error of cost - price. A bid that is lower by this amount is
-/// truly lower.
+/// An upper bound for the rounding error of cost - price. If a bid is lower by more than this
+/// bound, rounding is not the reason.
 double rounding_of(double cost, double price) { return 1e-15 * (cost + std::abs(price)); }
 
 }  // namespace

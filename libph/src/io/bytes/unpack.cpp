@@ -124,8 +124,8 @@ void gunzip_into(Buffer& bytes, const Input& input, std::size_t most) {
   for (;;) {
     input.poll();
     const std::size_t before = bytes.size();
-    // If the stated size is too large, and the data so far have expanded to the same degree, the
-    // rest is not unpacked. Unpacking it could only confirm the stated size.
+    // If the stated size is too large, and the data unpacked so far have expanded by more than the
+    // allowed factor, the rest is not unpacked. Unpacking it could only confirm the stated size.
     const bool goes_on = stated > reasonable && before / kMostExpansion > inflater.used();
     if (before >= reasonable || goes_on) {
       input.fail_at_byte(inflater.used(),

@@ -83,7 +83,8 @@ void YamlWords::take_line(std::string_view line) {
   if (content[indent] == '\t')
     fail(indent + 1, {"a tab before a key", {}, "blanks", "YAML is indented with blanks"});
   const std::string_view rest = content.substr(indent);
-  // This is an item of the last key, and is not indented more than the key.
+  // This line is an item of a list. It belongs to the last key that is not indented more than the
+  // item.
   if (rest == "-" || rest.starts_with("- ")) {
     while (!open_.empty() && open_.back().indent > indent) open_.pop_back();
     if (open_.empty()) fail(indent + 1, {"list", quoted(rest), "a key before it", {}});

@@ -73,7 +73,7 @@ std::size_t read_points_count(BinaryCursor& cursor, const ReadOptions& options) 
   return count;
 }
 
-// Reads the facets of all cells. The offsets of the cells come first, then the number of all
+// Reads the facets of all cells. The offsets of the cells come first, then the total number of
 // facets, then the facets.
 void read_facets(BinaryCursor& cursor, std::size_t cells, BoundaryMatrix& matrix) {
   const Input& input = cursor.input();

@@ -50,8 +50,8 @@ bool begins_with_digits(const Input& input) {
          lines.line().find_first_not_of("0123456789\",; \t") == std::string_view::npos;
 }
 
-// Adds a note if the first column may be an index, or the first row may be a header, but was read
-// as data.
+// Adds a note if the first column was read as data but may be an index, or if the first row was
+// read as data but may be a header.
 void tell_of_counts(const Input& input, const detail::TableLayout& layout, PointsView rows,
                     const ReadOptions& options) {
   constexpr Index kFewest = 8;  // so many rows rarely count by chance

@@ -226,12 +226,12 @@ bool may_be_names(const TextLines& first, const TextLines& next, const TableLayo
   return looks(first) == std::pair(true, true) && !looks(next).second;
 }
 
-// True if the first column is left out because it contains the names or the numbers of the rows. A
-// note gives the reason.
+// True if the first column is left out because it contains the names or the numbers of the rows. In
+// this case, a note gives the reason.
 bool leads_with_names(const Input& input, TableLayout& layout, std::string_view first_cell) {
   if (layout.width < 2) return false;
   const bool is_full = layout.header.size() == layout.width;
-  // R writes headers in this way.
+  // R writes no name for the column of row names.
   const bool is_one_short = layout.header.size() + 1 == layout.width;
   if (is_full && layout.header[0].empty()) {
     const bool is_one = layout.unnamed() == 1;
@@ -327,7 +327,7 @@ TableLayout table_layout(const Input& input, const ReadOptions& options) {
     leave_counts_out(input, lines, options, layout);
   if (!options.columns.empty()) {
     std::vector<std::string> names = layout.header;
-    // R writes headers in this way.
+    // R writes no name for the column of row names.
     if (names.size() + 1 == layout.width) names.insert(names.begin(), "");
     if (names.size() != layout.width) names.clear();
     layout.columns = chosen_columns(options.columns, names, layout.width, input);

@@ -14,12 +14,12 @@ namespace ph::vectors {
 /// The change of the Euler characteristic at each voxel of a row.
 ///
 /// V-construction: a voxel decides the values of the cells whose last vertex it is. Each of these
-/// cells is in one of 3^d - 1 directions, which are -1, 0 or 1 along each axis. The other vertices
-/// of the cell are in the directions that have some of these components set to 0. The voxel
-/// therefore decides a cell if the neighbour in the cell's direction precedes the voxel and if the
-/// voxel decides the facets of the cell that contain it. If vertices are equal, the vertex in the
-/// larger direction counts as last. Each cell is therefore decided once, even if an axis is
-/// periodic and has only one or two voxels.
+/// cells extends from the voxel in one of 3^d - 1 directions. A direction has the component -1, 0
+/// or 1 along each axis. The other vertices of the cell are in the directions that have some of
+/// these components set to 0. The voxel therefore decides a cell if the neighbour in the cell's
+/// direction precedes the voxel and if the voxel decides the facets of the cell that contain the
+/// voxel. If vertices are equal, the vertex in the larger direction counts as last. Each cell is
+/// therefore decided once, even if an axis is periodic and has only one or two voxels.
 ///
 /// T-construction: the same rule applies to the faces between top cubes. A voxel decides the face
 /// in a direction if all other cubes around the face come later or do not exist. The dimension of
@@ -44,7 +44,7 @@ class DecidedCells {
       for (std::size_t rest = number; rest > 0; rest /= 3, power *= 3) {
         const std::size_t digit = rest % 3;  // 0 means no step, 1 down, 2 up
         if (digit == 0) continue;
-        direction.is_down = digit == 1;  // set by the first axis along which the direction leads
+        direction.is_down = digit == 1;  // the first axis along which the direction leads decides
         direction.facets.push_back(number - digit * power);
         ++steps;
       }

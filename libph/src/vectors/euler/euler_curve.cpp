@@ -15,8 +15,8 @@ namespace ph {
 namespace vectors {
 namespace {
 
-/// Finds, for each row of a layer, the rows around it. Each direction along all axes except the
-/// last has one row.
+/// Finds, for each row of a layer, the rows around it. There is one row for each direction along
+/// all axes except the last.
 class RowNeighbours {
  public:
   explicit RowNeighbours(const Layered& image) : image_(image), place_(image.axes() - 2) {

@@ -90,7 +90,7 @@ void ScratchFile::resize(std::size_t bytes) {
   size_ = bytes;
 }
 
-// The system does not say how much of the working set belongs to files.
+// The system does not report how much of the working set belongs to files.
 ResidentFiles::ResidentFiles() : file_(-1) {}
 ResidentFiles::~ResidentFiles() = default;
 std::size_t ResidentFiles::bytes() const { return 0; }

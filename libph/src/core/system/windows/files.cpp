@@ -62,7 +62,7 @@ unsigned at_most(std::size_t bytes) {
 std::optional<Status> status_of(const std::filesystem::path& path) {
   const HANDLE handle =
       CreateFileW(path.c_str(), 0, FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE, nullptr,
-                  // The flag opens folders as well.
+                  // With this flag, folders can be opened as well.
                   OPEN_EXISTING, FILE_FLAG_BACKUP_SEMANTICS, nullptr);
   if (handle == INVALID_HANDLE_VALUE) {
     keep_error();
