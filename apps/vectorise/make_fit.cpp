@@ -116,7 +116,8 @@ void add_blocks(Fit& fit, const std::vector<Barcode>& barcodes,
 }
 
 void add_euler_block(Fit& fit, std::span<const StepFunction> curves, const Arguments& arguments) {
-  // All curves, as bars that never end; the fit uses their births.
+  // The first two changes and the last change of each curve, as bars that never end. The fit uses
+  // the births of these bars.
   std::vector<Bar> changes;
   for (const StepFunction& curve : curves) {
     const std::size_t count = curve.at.size();

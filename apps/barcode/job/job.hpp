@@ -61,7 +61,7 @@ struct Question {
   std::string vertex_weights;  ///< a path; empty if there is none
   std::optional<AlphaOptions::Unit> alpha_unit;
   std::string weights;  ///< a path; empty if there is none
-  /// One for all axes, or one for each axis; empty if no axis is periodic.
+  /// One period for all axes, or one period for each axis; empty if no axis is periodic.
   std::vector<double> period;
   CubicalOptions cubical;
   std::optional<double> voxel;  ///< the edge of a voxel, in the unit of the points
@@ -73,7 +73,7 @@ struct Question {
 struct Results {
   std::optional<LoopChoice> loops;  ///< empty if not given; the default is tight
   bool check = false;
-  bool significance = false;  ///< true if a p-value for each bar is wanted
+  bool significance = false;  ///< true if a p-value for each bar is requested
   bool dry_run = false;
   /// The format that --output-format names; empty if it is not given.
   std::optional<BarcodeFormat> output_format;

@@ -25,7 +25,7 @@ class Session {
   const RunContext& context() const { return context_; }
   const CommonOptions& options() const { return options_; }
 
-  /// The largest resident memory so far, beyond its value at the start, in bytes.
+  /// The largest increase of the resident memory since the start, in bytes.
   std::uint64_t memory_taken() const;
 
   /// Writes one line to stderr in the form `program: text`, which all programs use. With --quiet,

@@ -25,7 +25,7 @@ struct DepthInput {
   std::string calibration;
   /// The value of --intrinsics, or the content of `calibration`.
   std::optional<Camera> camera;
-  /// Depth units per metre; if empty, guessed from the image.
+  /// The number of depth units per metre. If it is empty, it is guessed from the image.
   std::optional<double> scale;
 
   bool has_camera() const { return camera || !calibration.empty(); }
@@ -53,7 +53,8 @@ struct Arguments {
   std::string frames_from;
   /// True if an object keeps its label from frame to frame.
   bool stable_labels = false;
-  /// The current input, a cloud or a stored tree; if empty, the input is image.depth.
+  /// The current input, which is a cloud or a stored tree. If it is empty, the input is
+  /// image.depth.
   std::string input;
   DepthInput image;
   /// True if a cloud without points is an empty result instead of an error.

@@ -12,7 +12,7 @@ enum Situation : app::Situations {
   kDepthImage = 1 << 1,  ///< a depth image with its camera
   kStoredTree = 1 << 2,  ///< a merge tree that --tree wrote
 
-  /// The methods; a stored tree has the method that made it.
+  /// The methods. A stored tree has the method that made it.
   kPaper = 1 << 3,
   kSurface = 1 << 4,
   kSupervoxels = 1 << 5,

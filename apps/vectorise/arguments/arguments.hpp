@@ -47,7 +47,7 @@ struct Arguments {
   // The given options that have no effect for some kinds of vectors.
   std::vector<app::GivenOption> given;
 
-  /// True if an option or an extension names the format; otherwise it is csv.
+  /// True if an option or an extension names the format. Otherwise the format is csv.
   bool names_format() const;
   OutputFormat written_format() const;
 };

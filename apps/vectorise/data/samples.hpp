@@ -18,7 +18,7 @@ std::vector<std::string> files_of(const Arguments& arguments, Kind kind);
 /// The input of an Euler curve.
 using Sample = std::variant<Barcode, Cubical>;
 
-/// @param cubical how to treat an image; axes that its file declares periodic are added.
+/// @param cubical the options for an image. Axes that its file declares periodic are added.
 /// @throws Error like the readers; Error (usage) on an option that does not apply to this kind of
 /// input.
 Sample read_sample(const std::string& path, const CubicalOptions& cubical,

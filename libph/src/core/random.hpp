@@ -20,8 +20,8 @@ class Random {
   std::uint64_t bits() { return mixed(state_ += kStep); }
   /// A number in [0, 1).
   double uniform() { return std::ldexp(static_cast<double>(bits() >> 11), -53); }
-  /// An integer from 0 to `count` - 1; `count` must be positive. All are equally likely, because
-  /// numbers that would make some of them likelier are drawn again.
+  /// An integer from 0 to `count` - 1, where `count` must be positive. All integers are equally
+  /// likely, because numbers that would make some of them likelier are drawn again.
   std::uint64_t below(std::uint64_t count) {
     const std::uint64_t excess = (UINT64_MAX % count + 1) % count;
     std::uint64_t x = bits();

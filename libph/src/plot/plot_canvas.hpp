@@ -44,7 +44,7 @@ class Outline {
     horizontal_by,
     vertical_to,  // uses only y
     vertical_by,
-    // Starts and ends at the current place; x is the width of the circle, to the right.
+    // The circle starts and ends at the current place, and extends to the right by its width x.
     circle_by,
     close
   };

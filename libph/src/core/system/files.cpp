@@ -190,7 +190,7 @@ std::ptrdiff_t write_some(int file, const char* from, std::size_t most) {
 }
 
 bool sync(int file) {
-  // Some file systems cannot sync; this does not count as an error.
+  // Some file systems cannot sync. This does not count as an error.
   return ::fsync(file) == 0 || errno == EINVAL || errno == ENOTSUP || errno == EROFS;
 }
 

@@ -28,7 +28,7 @@ std::optional<std::uint64_t> number_in(const std::string& path) {
 std::optional<std::uint64_t> control_group_limit(std::istream& memberships,
                                                  const std::string& root) {
   std::optional<std::uint64_t> least;
-  // A line is "number:controllers:/path"; in version 2 of control groups, `controllers` is empty.
+  // A line is "number:controllers:/path". In version 2 of control groups, `controllers` is empty.
   for (std::string line; std::getline(memberships, line);) {
     const std::size_t first = line.find(':'), second = line.find(':', first + 1);
     if (second == std::string::npos) continue;

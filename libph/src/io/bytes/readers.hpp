@@ -27,7 +27,7 @@ TextTable read_text_table(const Input& input, Allow allow, const ReadOptions& op
 Image read_grid(const Input& input, const ReadOptions& options);
 
 /// Depending on options.nan, either removes the rows with a NaN and reports these rows, or throws.
-/// @param holes true if rows with a NaN are holes of a point cloud; these rows are always removed.
+/// @param holes true if rows with a NaN are holes of a point cloud, which are always removed.
 Points without_nan_rows(Points points, const Input& input, const ReadOptions& options, bool holes);
 
 /// Converts a square array to distances; see read_distances.

@@ -15,7 +15,7 @@ struct PcdHeader {
 };
 
 /// Reads the header of a PCD file. @throws Error (bad_data) if it is invalid, or if the file is too
-/// small for the points that it promises.
+/// small for the points that it states.
 PcdHeader read_pcd_header(const Input& input);
 
 }  // namespace ph::detail

@@ -13,7 +13,7 @@ namespace {
 constexpr std::int64_t kMostCells = std::int64_t{1} << 40;
 constexpr std::int64_t kMostDimension = 1 << 20;
 
-// Checks one facet of a column. The caller, which knows the place, reports the fault.
+// Checks one facet of a column. The caller reports the fault, because it knows the place.
 Fault fault_of_facet(Index facet, std::size_t column, std::optional<Index> before) {
   if (facet < 0 || facet >= static_cast<Index>(column)) {
     return {fmt::format("facet of cell {} out of range", column),

@@ -40,7 +40,7 @@ class NearPoints {
   /// Bottlenecks::square_around), and the second box is for all other points. The boxes must
   /// outlive this object.
   /// @param first_cell the position of the block's first cell in `boxes`.
-  /// @param block must not be empty. @param limit the length beyond which edges are not wanted.
+  /// @param block must not be empty. @param limit the length up to which edges are needed.
   NearPoints(const SampleTree& tree, const Bottlenecks& bottlenecks, const CellRegions& regions,
              const CellBoxes& boxes, std::size_t first_cell, std::uint32_t block, double limit,
              const RunContext& context);

@@ -13,7 +13,7 @@ namespace ph {
 /// Divides space into blocks that contain about equally many points of a cloud, and each block into
 /// cells. It is a k-d tree (Bentley 1975) over a sample of the cloud. Its leaves are the cells,
 /// each of which contains one point of the sample. The division depends only on comparisons and is
-/// therefore the same in every process that knows the cloud. Equal points are in the same cell, and
+/// therefore the same in every process that reads the cloud. Equal points are in the same cell, and
 /// each point of the sample is in its own cell.
 ///
 /// Cells are numbered from one side to the other. Blocks are numbered in the same way, and a block

@@ -25,7 +25,8 @@ class RowNeighbours {
     steps_.resize(count);
   }
 
-  /// Calls use(row, rows) for all rows of the middle layer; rows[direction] is a pointer to keys.
+  /// Calls use(row, rows) for all rows of the middle layer, where rows[direction] is a pointer to
+  /// keys.
   template <class T, class Use>
   void for_each_row(const ThreeLayers<T>& layers, Use&& use) {
     std::vector<const T*> rows(steps_.size());
