@@ -30,16 +30,13 @@ void require_room(BarcodeFormat format, const Job& job) {
   if (!job.results.dry_run) require_significance(format, job);
   if (job.question.options.representatives == Representatives::none || job.results.dry_run) return;
   if (job.results.loops && format != BarcodeFormat::json)
-    throw Error(
-        ErrorKind::usage,
-        fmt::format("--loops: found output format {}, expected json; --output-format json or "
-                    "-o FILE.json holds them",
-                    barcode_format_name(format)));
+    throw Error(ErrorKind::usage, fmt::format("--loops: found output format {}, expected json; use "
+                                              "--output-format json or -o FILE.json",
+                                              barcode_format_name(format)));
   if (!job.places.report.empty() || format == BarcodeFormat::json) return;
-  throw Error(ErrorKind::usage,
-              fmt::format("--representatives: found output format {}, expected json; "
-                          "--output-format json or -o FILE.json holds them",
-                          barcode_format_name(format)));
+  throw Error(ErrorKind::usage, fmt::format("--representatives: found output format {}, expected "
+                                            "json; use --output-format json or -o FILE.json",
+                                            barcode_format_name(format)));
 }
 
 /// The input and the output files of one of several inputs. The folders and patterns of the job
@@ -72,7 +69,8 @@ std::vector<Places> places_of(const Job& job, const std::vector<std::string>& in
   if (format != BarcodeFormat::none && !is_place && !job.results.dry_run)
     throw Error(
         ErrorKind::usage,
-        fmt::format("--output: several inputs need a folder: -o FOLDER/, found '{}'", output));
+        fmt::format("--output: found '{}', expected a folder for several inputs: -o FOLDER/",
+                    output));
   const std::vector<std::string> names = app::output_names(inputs);
   const bool writes = format != BarcodeFormat::none || !job.places.plots.empty() ||
                       !job.places.report.empty() || !job.places.surfaces.empty();
@@ -151,12 +149,12 @@ void explain_unwritten(const Job& job, BarcodeFormat format, app::Session& sessi
       estimated.emplace_back("--representatives");
   }
   if (!unwritten.empty())
-    session.note(fmt::format("{}: nothing is done for {}",
+    session.note(fmt::format("{} ignores {}",
                              job.results.dry_run ? "--dry-run" : "--output-format none",
                              fmt::join(unwritten, ", ")));
   if (!estimated.empty())
-    session.note(fmt::format("--dry-run: nothing is done for {} except to estimate memory",
-                             fmt::join(estimated, ", ")));
+    session.note(
+        fmt::format("--dry-run uses {} only to estimate memory", fmt::join(estimated, ", ")));
 }
 
 /// Notes which of the given options for bars have no effect, because only the merge tree is
@@ -173,8 +171,8 @@ void explain_unseen_bars(const Job& job, BarcodeFormat format, app::Session& ses
     if (std::ranges::find(kOfBars, option.name) != kOfBars.end())
       given.push_back(fmt::format("--{}", option.name));
   if (!given.empty())
-    session.note(fmt::format("nothing is done for {}: only the merge tree is written",
-                             fmt::join(given, ", ")));
+    session.note(
+        fmt::format("{}: ignored, because only the merge tree is written", fmt::join(given, ", ")));
 }
 
 /// Processes one of several inputs, and writes one line to stderr for any outcome. @return the exit
@@ -202,10 +200,11 @@ BarcodeFormat output_format(const Job& job, app::Session& session) {
   if (job.results.output_format) return *job.results.output_format;
   if (const app::Plot picture{.path = job.places.output, .kind = {}};
       picture.is_svg() || picture.is_png())
-    throw Error(ErrorKind::usage,
-                fmt::format("--output: found '{0}', expected a barcode; --plot {0} draws it, "
-                            "--output-format NAME writes another format there",
-                            printable(job.places.output)));
+    throw Error(
+        ErrorKind::usage,
+        fmt::format("--output: found '{0}', expected the name of a barcode file; --plot {0} draws "
+                    "the barcode, --output-format NAME writes it there in another format",
+                    printable(job.places.output)));
   // If only pictures, reports or surfaces are written for several inputs, their barcodes are not
   // printed in addition.
   const bool has_others =

@@ -71,9 +71,8 @@ std::vector<std::string> pictures_of_tree(const Loaded& loaded, const Job& job,
   if (!tree)
     throw Error(ErrorKind::usage,
                 fmt::format("--plot-kind tree: {} has no merge tree: expected no sample, no "
-                            "approximation, --construction vertices, no --threshold on a "
-                            "listed "
-                            "complex, and at most {} voxels",
+                            "approximation, --construction vertices, no --threshold on "
+                            "simplices, boundary matrices or meshes, and at most {} voxels",
                             loaded.name, report::kMostTreeVoxels));
   const MemoryClaim claim(context.memory, tree->births.size() * sizeof(Branch));
   const std::vector<Branch> branches = tree->branches();

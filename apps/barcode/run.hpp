@@ -7,10 +7,9 @@
 
 namespace ph::barcode {
 
-inline constexpr app::Program kProgram{
-    "ph-barcode",
-    "take fewer points or voxels, a lower threshold or dimension (--max-dim), or raise "
-    "--memory-limit"};
+inline constexpr app::Program kProgram{"ph-barcode",
+                                       "use fewer points or voxels, a lower threshold or dimension "
+                                       "(--max-dim), or raise --memory-limit"};
 
 /// Reads one input, computes its barcode and writes it. A stored barcode is only read and written.
 /// @throws Error.

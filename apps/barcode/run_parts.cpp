@@ -37,9 +37,8 @@ int run_part(const Job& job, app::Session& session) {
                               : run_batch_part(with_files_of_folders(job), job, session);
   session.note(outcome.summary);
   if (barcode_format_of_path(job.places.output))
-    session.note(
-        fmt::format("{}: contains a part, whatever its name says; --join makes bars from parts",
-                    printable(job.places.output)));
+    session.note(fmt::format("{}: contains a part despite its name; --join makes bars from parts",
+                             printable(job.places.output)));
   return outcome.code;
 }
 
@@ -57,7 +56,7 @@ int run_join(const Job& job, BarcodeFormat format, app::Session& session) {
       if (kind.empty()) kind = found;
       if (found != kind)
         throw Error(ErrorKind::bad_data,
-                    fmt::format("part: found one of kind '{}', expected '{}' as in the others",
+                    fmt::format("part: found kind '{}', expected kind '{}' as in the other files",
                                 found, kind));
     } catch (const Error& error) {
       throw Error(error.kind(), fmt::format("{}: {}", path, error.marked()));

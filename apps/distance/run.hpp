@@ -7,7 +7,7 @@
 namespace ph::distance_program {
 
 inline constexpr app::Program kProgram{"ph-distance",
-                                       "take fewer barcodes or bars, or raise --memory-limit"};
+                                       "use fewer barcodes or bars, or raise --memory-limit"};
 
 /// Runs ph-distance after its command line was parsed. @return the exit code. @throws Error.
 int run(const Arguments& arguments, app::Session& session);

@@ -183,8 +183,8 @@ void explain_stages(const Segmentation& s, const Arguments& arguments, app::Sess
   const SegmentOptions& options = arguments.options;
   if (s.tree.method == options.method && !options.voxel && s.tree.voxel > options.voxel_size()) {
     session.explain(
-        fmt::format("voxels of {:.4g} m instead of {} m: most points are too far apart "
-                    "to touch in smaller voxels",
+        fmt::format("voxels of {:.4g} m instead of {} m: most points are too far apart for smaller "
+                    "voxels to touch",
                     s.tree.voxel, options.voxel_size()));
   }
   if (!s.tree.plane) return;

@@ -78,7 +78,7 @@ class Run {
     Table table{length_of(fit_), std::pmr::vector<double>(&session_.context().memory)};
     std::size_t numbers = 0;
     if (__builtin_mul_overflow(files_.size(), table.columns, &numbers))
-      throw Error(ErrorKind::resource, "the table has more numbers than can be counted");
+      throw Error(ErrorKind::resource, "the table would have more numbers than 64 bits can count");
     table.numbers.resize(numbers);
     return table;
   }

@@ -8,7 +8,7 @@ namespace ph::vectorise {
 
 inline constexpr app::Program kProgram{
     "ph-vectorise",
-    "take fewer inputs, a coarser --grid or fewer --layers, or raise --memory-limit"};
+    "use fewer inputs, a coarser --grid or fewer --layers, or raise --memory-limit"};
 
 /// Runs ph-vectorise after its command line was parsed. @return the exit code. @throws Error.
 int run(const Arguments& arguments, app::Session& session);

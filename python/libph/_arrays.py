@@ -183,8 +183,8 @@ def new_array(shape: int | tuple[int, ...]) -> NDArray[np.float64]:
     because the system would promise the memory anyway."""
     needed = math.prod(shape if isinstance(shape, tuple) else (shape,)) * 8
     if needed > _LARGE and needed > _core.memory_left():
-        raise MemoryLimitError(f"found a result of shape {shape}, whose {needed} bytes would exceed "
-                               "the memory")
+        raise MemoryLimitError(f"found a result of shape {shape}, whose {needed} bytes would "
+                               "exceed the available memory")
     array: NDArray[np.float64] = np.empty(shape)
     return array
 
@@ -200,7 +200,7 @@ def _copied(array: NDArray[Any], dtype: DTypeLike, name: str) -> NDArray[Any]:
     needed = array.size * np.dtype(dtype).itemsize
     if needed > _LARGE and needed > _core.memory_left():
         raise MemoryLimitError(f"{name}: found {array.size} numbers of type {array.dtype}, whose "
-                               f"copy of type {np.dtype(dtype)} would exceed the memory")
+                               f"copy of type {np.dtype(dtype)} would exceed the available memory")
     return array.astype(dtype, order="C")
 
 

@@ -86,7 +86,7 @@ class Request(NamedTuple):
         except (Cancelled, MemoryLimitError):
             return error
         if not ways:
-            return reworded(error, f"{error}; ph.estimate says how much a computation takes")
+            return reworded(error, f"{error}; ph.estimate says how much memory a computation needs")
         fit = "may fit" if self.meta["complex"] == "cubical" else "would fit"
         return reworded(error, f"{error}; what {fit}: {'; '.join(text for _, text in ways)}; or a "
                         "larger memory_limit", *ways[0][0])
@@ -103,7 +103,7 @@ def _task(max_dim: Any, min_dim: Any, field: Any, engine: Any, collapse: Any, mi
     highest = None if max_dim is None else _options.whole("max_dim", max_dim, 0, _MOST_DIMENSIONS)
     lowest = _options.whole("min_dim", min_dim, 0, _MOST_DIMENSIONS)
     if highest is not None and lowest > highest:
-        raise _options.refuse("min_dim", lowest, f"at most max_dim, {highest}")
+        raise _options.refuse("min_dim", lowest, f"at most max_dim ({highest})")
     return _core.Task(
         highest, lowest, _options.whole("field", field, 2, 2**31 - 1), known, how,
         _options.real("min_persistence", min_persistence), kind, _options.flag("cells", cells),
@@ -174,7 +174,7 @@ def rips_request(o: dict[str, Any]) -> Request:
         if value is None:
             continue
         if births is not None or neighbours is not None:
-            raise UsageError(f"{name}: excludes weights")
+            raise UsageError(f"{name}: cannot be combined with weights; leave out one of them")
         if not source.space.is_complete:
             raise UsageError(f"{name}: needs all distances, found some of them")
     task = _task_of(o, _loops_of(o, "tight"))
@@ -208,7 +208,8 @@ def _weights(o: dict[str, Any], source: Source
     weights, neighbours, exponent = o["weights"], o["dtm_neighbors"], o["weight_exponent"]
     is_dtm = isinstance(weights, str)
     if weights is not None and source.births is not None:
-        raise UsageError("weights: excludes diagonal='births'")
+        raise UsageError("weights: cannot be combined with diagonal='births', which already gives "
+                         "each point a birth; leave out one of them")
     if is_dtm:
         _options.choice("weights", weights, ["dtm"])
         if neighbours is None:
@@ -261,23 +262,26 @@ def alpha_recipe(o: dict[str, Any], source: Source, value: str = "alpha",
                          "libph again (pip install .); a build with CGAL falls under the GPL")
     dims = source.coordinates
     if dims is not None and not 1 <= dims <= 3 and source.points:
-        raise UsageError(f"X: found points of R^{dims}, expected R^1 to R^3; ph.rips takes any")
+        raise UsageError(f"X: found points of R^{dims}, expected R^1 to R^3; ph.rips takes points "
+                         "of any dimension")
     weights = o["weights"]
     squared = weights is not None if o["squared"] is None else _options.flag("squared", o["squared"])
     if weights is not None:
         weights = _arrays.as_values(weights, "weights", source.points, "point")
         if not squared:
-            raise UsageError("squared: found False with weights, expected True: squares may be "
-                             "negative")
+            raise UsageError("squared: found False with weights, expected True, because squared "
+                             "radii may be negative")
         if value != "alpha":
-            raise UsageError(f"weights: found values={value!r}, expected 'alpha'")
+            raise UsageError(f"weights: found values={value!r}, expected values='alpha', the only "
+                             "values with weights")
         if source.ids is not None:
             weights = weights[source.ids]
     elif threshold is not None and threshold < 0:
         raise _options.refuse("threshold", threshold, "a radius or its square, at least 0")
     period = _period(o.get("period"), dims or 0)
     if any(period) and value != "alpha":
-        raise UsageError(f"period: found values={value!r}, expected 'alpha'")
+        raise UsageError(f"period: found values={value!r}, expected values='alpha', the only "
+                         "values with periodic axes")
     recipe = _core.AlphaRecipe(source.space, value, squared, weights, period,
                                math.inf if threshold is None else threshold, source.ids)
     return recipe, squared, period

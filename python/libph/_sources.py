@@ -47,7 +47,7 @@ def source_of(X: Any, *, metric: Any = "euclidean", minkowski_p: Any = 2.0, nan:
     p = _options.real("minkowski_p", minkowski_p, "a number, at least 1", least=1)
     if p != 2 and name != "minkowski":
         found = "a function as metric" if name == "function" else f"metric='{metric}'"
-        raise UsageError(f"minkowski_p: does nothing for {found}, expected 'minkowski'")
+        raise UsageError(f"minkowski_p: does nothing for {found}, expected metric='minkowski'")
     if name == "precomputed":
         if _arrays.is_sparse(X):
             return _of_sparse(X, nan, diagonal, symmetrise)
@@ -229,8 +229,8 @@ def _of_function(X: Any, metric: Callable[[Any, Any], float], nan: str | None) -
             try:
                 distances[place] = distance
             except (TypeError, ValueError):
-                raise DataError(f"metric: of points {i} and {j}: found "
-                                f"{type(distance).__name__}, expected a number") from None
+                raise DataError(f"metric of points {i} and {j}: found {type(distance).__name__}, "
+                                "expected a number") from None
             place += 1
     if n == 0:
         distances = np.empty((0, 0))  # an empty array is the condensed form of one point

@@ -121,7 +121,7 @@ def test_a_barcode_is_no_data(tmp_path):
 
 def test_diagrams_of_other_shapes():
     bars = ph.rips(SERIES)
-    for wrong, words in ((bars.dgms(), "a list of arrays, .* a.1. has those of H1"),
+    for wrong, words in ((bars.dgms(), "a list of arrays, .* a.1. has the rows of H1"),
                          (bars.to_numpy("gudhi"), "pairs .dimension, .birth, death..")):
         with pytest.raises(ph.UsageError, match=f"a: found {words}"):
             ph.bottleneck(wrong, bars.dgm(1))

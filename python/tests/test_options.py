@@ -84,8 +84,8 @@ def test_refused_arguments(function, arguments):
 @pytest.mark.parametrize("keywords, words", [
     ({"weights": "dtm"}, "dtm_neighbors"),
     ({"weights": "dtm", "dtm_neighbors": 5}, "1 to 4"),
-    ({"weights": "dtm", "dtm_neighbors": 2, "subsample": 2}, "subsample: excludes weights"),
-    ({"weights": [0, 0, 0, 0], "approximation": 1}, "approximation: excludes weights"),
+    ({"weights": "dtm", "dtm_neighbors": 2, "subsample": 2}, "subsample: cannot be combined with weights"),
+    ({"weights": [0, 0, 0, 0], "approximation": 1}, "approximation: cannot be combined with weights"),
     ({"representatives": "cocycles", "collapse": True}, "collapse"),
     ({"representatives": "cocycles", "loops": "plain"}, "loops"),
     ({"min_persistence": -1, "collapse": True}, "collapse"),

@@ -143,7 +143,7 @@ def test_delays(ph_barcode, seed):
     (np.arange(9.0), ["--delay", str(2**62)], 65, "found a series of 9 times"),
     (np.arange(9.0), ["--delay", "0"], 64, "--delay: found '0'"),
     (np.arange(9.0), ["--delay", "2,1,1"], 64, "expected D or D,TAU"),
-    (np.arange(9.0), ["--delay", "2", "--nan", "drop"], 64, "excludes --nan drop"),
+    (np.arange(9.0), ["--delay", "2", "--nan", "drop"], 64, "cannot be combined with --nan drop"),
     (np.array([1, np.nan, 3]), ["--delay", "2"], 65, "nan"),
     (np.zeros((3, 3, 3)), ["--delay", "2"], 65, "expected a time series"),
     (np.zeros((3, 3)), ["--delay", "2", "--format", "distance"], 65, "expected a time series"),

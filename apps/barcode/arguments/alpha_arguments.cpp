@@ -71,30 +71,30 @@ void check_alpha_arguments(Job& job) {
   const bool is_weighted = !job.question.weights.empty();
   if (is_weighted && job.question.alpha_unit == AlphaOptions::Unit::radius)
     throw Error(ErrorKind::usage,
-                "--alpha-values: found radius with --weights, expected squared: squares may be "
-                "negative");
+                "--alpha-values: found radius with --weights, expected squared, because squared "
+                "radii may be negative");
   const std::string_view name = complex_names()[static_cast<std::size_t>(job.question.complex)];
   const bool is_alpha = job.question.complex != ComplexKind::delaunay_cech &&
                         job.question.complex != ComplexKind::delaunay_rips;
   if (is_weighted && !is_alpha)
     throw Error(ErrorKind::usage,
-                fmt::format("--weights: found --complex {}, expected alpha", name));
+                fmt::format("--weights: found --complex {}, expected --complex alpha", name));
   if (!job.places.surfaces.empty() && !is_alpha)
-    throw Error(ErrorKind::usage, fmt::format("{}: found --complex {}, expected alpha",
+    throw Error(ErrorKind::usage, fmt::format("{}: found --complex {}, expected --complex alpha",
                                               job.places.surfaces[0].option(), name));
   const bool is_periodic =
       std::ranges::any_of(job.question.period, [](double length) { return length > 0; });
   if (is_periodic && !is_alpha)
     throw Error(ErrorKind::usage,
-                fmt::format("--period: found --complex {}, expected alpha", name));
+                fmt::format("--period: found --complex {}, expected --complex alpha", name));
   if (is_periodic && !job.places.surfaces.empty())
     throw Error(ErrorKind::usage,
-                fmt::format("{}: found --period, expected a space that does not close up",
+                fmt::format("{}: cannot be combined with --period; leave out one of them",
                             job.places.surfaces[0].option()));
   for (const Surface& surface : job.places.surfaces)
     if (job.question.threshold && surface.value > *job.question.threshold)
       throw Error(ErrorKind::usage,
-                  fmt::format("{}: found {}, expected at most --threshold, {}", surface.option(),
+                  fmt::format("{}: found {}, expected at most --threshold ({})", surface.option(),
                               surface.value, *job.question.threshold));
   if (!job.question.alpha_unit)
     job.question.alpha_unit =

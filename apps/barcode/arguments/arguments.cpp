@@ -100,7 +100,7 @@ constexpr int kAnyNumber = 1 << 20;
 void take_compared(Job& job, const std::vector<std::string>& paths) {
   if (paths.size() != 2)
     throw Error(ErrorKind::usage,
-                fmt::format("--compare: expected two barcodes, found {}", paths.size()));
+                fmt::format("--compare: found {}, expected two barcodes", paths.size()));
   job.compare = paths;
 }
 
@@ -160,11 +160,10 @@ bool take_word(Job& job, app::PlotArguments& plots) {
       job.results.output_format.value_or(BarcodeFormat::none) != BarcodeFormat::none;
   const app::Plot picture{.path = job.places.output, .kind = {}};
   if (wants_bars && (picture.is_svg() || picture.is_png()))
-    throw Error(
-        ErrorKind::usage,
-        fmt::format("--output-format: found {0} with the picture -o {1}; expected --plot {1} "
-                    "for the picture and -o for the barcode",
-                    barcode_format_name(*job.results.output_format), job.places.output));
+    throw Error(ErrorKind::usage,
+                fmt::format("--output-format: found {0} with -o {1}, which writes a picture; use "
+                            "--plot {1} for the picture and -o for the barcode",
+                            barcode_format_name(*job.results.output_format), job.places.output));
   const auto bars = barcode_format_of_path(job.places.output);
   const bool has_others = !plots.paths.empty() || !job.places.report.empty();
   if (bars && !wants_bars && !has_others)
@@ -191,8 +190,9 @@ void check_together(Job& job) {
   const auto reject = [](const std::string& what) { throw Error(ErrorKind::usage, what); };
   if (job.places.report == "-" && job.places.output == "-" &&
       job.results.output_format != BarcodeFormat::none)
-    reject(fmt::format("--report: standard output has the {}; -o FILE or --output-format none",
-                       job.compare.empty() ? "barcode" : "distances"));
+    reject(fmt::format(
+        "--report: standard output already has the {}; use -o FILE or --output-format none",
+        job.compare.empty() ? "barcode" : "distances"));
   check_part_arguments(job);
   if (!job.compare.empty()) {
     if (!job.inputs.empty())
@@ -206,7 +206,7 @@ void check_together(Job& job) {
   if (std::count(job.inputs.begin(), job.inputs.end(), "-") > 1)
     reject("INPUT: standard input can be read once only");
   if (job.question.options.max_dim && job.question.options.min_dim > *job.question.options.max_dim)
-    reject(fmt::format("--min-dim: found {}, expected at most --max-dim, {}",
+    reject(fmt::format("--min-dim: found {}, expected at most --max-dim ({})",
                        job.question.options.min_dim, *job.question.options.max_dim));
   const Engine engine = job.question.options.engine;
   if (job.question.options.representatives != Representatives::none && engine == Engine::standard)
@@ -217,17 +217,17 @@ void check_together(Job& job) {
   const bool has_cycles = job.question.options.representatives == Representatives::cycles ||
                           job.question.options.representatives == Representatives::voxels;
   if (job.results.loops && !has_cycles)
-    reject("--loops: found without --representatives cycles or voxels, from which loops are made");
+    reject("--loops: needs --representatives cycles or voxels, from which loops are made");
   if (job.results.loops && (job.question.options.max_dim == 0 || job.question.options.min_dim > 1))
-    reject("--loops: found without dimension 1, the only dimension with loops");
+    reject("--loops: needs dimension 1, the only dimension with loops");
   if (job.question.options.collapse == Collapse::on && job.question.options.min_persistence < 0)
     reject(
-        "--collapse: found on, which loses the bars of length 0 that a negative --min-persistence "
-        "keeps");
+        "--collapse: found on, expected off or auto with a negative --min-persistence, because a "
+        "collapse loses bars of length 0");
   if (job.question.options.collapse == Collapse::on &&
       job.question.options.representatives == Representatives::cocycles)
     reject(
-        "--collapse: found on, expected off or auto with --representatives cocycles: they need "
+        "--collapse: found on, expected off or auto with --representatives cocycles, which need "
         "all edges");
   check_rips_arguments(job);
   check_alpha_arguments(job);

@@ -62,7 +62,7 @@ void take_engine(Job& job, const std::string& text) {
   job.question.options.engine = engine ? *engine : Engine(names[choose("--engine", text, names)]);
   if (job.question.options.engine.name() != text)
     job.notes.push_back(
-        fmt::format("--engine: '{}' is called '{}' now", text, job.question.options.engine.name()));
+        fmt::format("--engine: '{}' is now called '{}'", text, job.question.options.engine.name()));
 }
 
 }  // namespace

@@ -27,18 +27,19 @@ void take_part(Job& job, const std::string& text) {
 /// Refuses options that ranks do not support, because ranks join their parts themselves.
 void check_ranks(const Job& job) {
   const auto reject = [](std::string_view option, std::string_view why) {
-    throw Error(ErrorKind::usage, fmt::format("{}: found on ranks{}", option, why));
+    throw Error(ErrorKind::usage, fmt::format("{}: not possible on MPI ranks{}", option, why));
   };
   if (job.sharing.keeps_cells) reject("--keep-cells", "; JSON has the cells");
-  if (!job.places.report.empty()) reject("--report", "; `ph-barcode plot BARS --report` makes one");
+  if (!job.places.report.empty())
+    reject("--report", "; `ph-barcode plot BARS --report` makes a report");
   if (!job.compare.empty()) reject("--compare", "");
   if (job.stored) reject("plot", "");
   if (job.question.options.min_persistence < 0)
-    throw Error(
-        ErrorKind::usage,
-        "--min-persistence: found a negative number on ranks: parts keep no bars of length 0");
+    throw Error(ErrorKind::usage,
+                "--min-persistence: found a negative number, expected 0 or more on MPI ranks, "
+                "whose parts keep no bars of length 0");
   for (const app::Plot& plot : job.places.plots)
-    if (!plot.shows_bars()) reject("--plot-kind tree", ", expected a plot of bars");
+    if (!plot.shows_bars()) reject("--plot-kind tree", "; plot the bars");
 }
 
 }  // namespace
@@ -71,35 +72,35 @@ void check_part_arguments(const Job& job) {
   const auto reject = [](const std::string& what) { throw Error(ErrorKind::usage, what); };
   if (job.sharing.on_ranks) {
     if (job.sharing.part || job.sharing.joins)
-      reject("--part and --join: found on ranks, which do both");
+      reject(
+          "--part and --join: not possible on MPI ranks, which make and join the parts themselves");
     check_ranks(job);
     if (job.sharing.resumes && job.places.output == "-")
       reject("--resume: needs -o FILE, beside which the ranks keep their parts");
     return;
   }
   if (!job.sharing.part && !job.sharing.joins) {
-    if (job.sharing.resumes) reject("--resume: found without --part, whose output it keeps");
-    if (job.sharing.keeps_cells) reject("--keep-cells: found without --part");
+    if (job.sharing.resumes) reject("--resume: needs --part, whose output it keeps");
+    if (job.sharing.keeps_cells) reject("--keep-cells: needs --part");
     return;
   }
   if (job.sharing.part && job.sharing.joins)
-    reject("--join: found together with --part; parts are computed first");
+    reject("--join: found together with --part; compute the parts first");
   const std::string_view option = job.sharing.part ? "--part" : "--join";
   if (!job.compare.empty()) reject(fmt::format("{}: found together with --compare", option));
   if (job.stored) reject(fmt::format("{}: found together with the word plot", option));
   if (!job.places.report.empty())
     reject(fmt::format(
-        "--report: found together with {}; `ph-barcode plot BARS --report` makes one of "
-        "the bars",
+        "--report: found together with {}; `ph-barcode plot BARS --report` makes a report",
         option));
   if (job.sharing.keeps_cells && job.wants_part_of_one() && !job.wants_image_part())
     reject("--keep-cells: makes sense for images only; parts of points always have the cells");
   if (job.sharing.joins && job.sharing.resumes) reject("--resume: makes sense with --part only");
   if (job.question.options.min_persistence < 0 && (job.sharing.joins || job.wants_part_of_one()))
-    reject(fmt::format(
-        "--min-persistence: found a negative number together with {}: parts keep no bars of "
-        "length 0",
-        option));
+    reject(
+        fmt::format("--min-persistence: found a negative number, expected 0 or more with {}, "
+                    "because parts keep no bars of length 0",
+                    option));
   if (job.sharing.joins && job.sharing.keeps_cells)
     reject("--keep-cells: makes sense with --part only");
   if (job.sharing.part && job.results.output_format)

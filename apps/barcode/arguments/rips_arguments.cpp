@@ -80,7 +80,8 @@ void check_rips_arguments(Job& job) {
   if (job.question.rips.dtm_neighbours) sources.push_back("--dtm");
   if (job.reading.options.diagonal == Diagonal::births) sources.push_back("--diagonal births");
   const auto exclude = [](std::string_view one, std::string_view other) {
-    throw Error(ErrorKind::usage, fmt::format("{}: excludes {}", one, other));
+    throw Error(ErrorKind::usage,
+                fmt::format("{}: cannot be combined with {}; leave out one of them", one, other));
   };
   if (sources.size() > 1) exclude(sources[0], sources[1]);
   if (sources.empty() && job.question.rips.weight_exponent)

@@ -67,7 +67,8 @@ void check_table_arguments(Job& job) {
   if (job.reading.delay) {
     if (job.reading.options.nan == NanPolicy::drop)
       throw Error(ErrorKind::usage,
-                  "--delay: excludes --nan drop: no time may be missing in a time series");
+                  "--delay: cannot be combined with --nan drop, because no time may be missing in "
+                  "a time series");
     // An array that is read as an image may have one axis or two axes.
     if (job.reading.format == Format::automatic) meaning = ArrayMeaning::image;
   }

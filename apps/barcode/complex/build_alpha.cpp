@@ -22,10 +22,9 @@ BuiltComplex build_alpha(const Points& points, std::vector<double> weights,
   const std::string_view kind = complex_names()[static_cast<std::size_t>(job.question.complex)];
   constexpr Index most = 3;
   if (points.cols() > most)
-    throw Error(ErrorKind::usage,
-                fmt::format("--complex {}: found points of R^{}, expected R^1 to R^{}; rips takes "
-                            "any",
-                            kind, points.cols(), most));
+    throw Error(ErrorKind::usage, fmt::format("--complex {}: found points of R^{}, expected R^1 to "
+                                              "R^{}; rips takes points of any dimension",
+                                              kind, points.cols(), most));
   AlphaOptions options;
   options.value = value_of(job.question.complex);
   options.unit = *job.question.alpha_unit;

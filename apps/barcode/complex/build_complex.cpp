@@ -79,8 +79,8 @@ class Builder {
     const bool has_incidences = !input.matrix.incidences.empty() || input.matrix.rows.empty();
     if (!has_incidences && job_.question.options.field != 2)
       throw Error(ErrorKind::usage,
-                  fmt::format("--field: found {}, expected 2: this boundary matrix has no "
-                              "incidence numbers; simplices have them",
+                  fmt::format("--field: found {}, expected 2, because this boundary matrix has no "
+                              "incidence numbers; simplices allow other fields",
                               job_.question.options.field));
     return stored(ExplicitComplex::from_boundary(input.matrix, input.namer(), context_),
                   "explicit");
@@ -107,7 +107,7 @@ class Builder {
                       job_.question.own_complex ? job_.question.own_complex->name : name(kind),
                       name(*kinds.begin()), data,
                       kind == ComplexKind::lower_star
-                          ? "; --values names the values of the vertices"
+                          ? "; --values gives the values of the vertices"
                           : ""));
     }
     return kind;
@@ -255,7 +255,7 @@ class Builder {
     const auto fail_at = [&](Index v) {
       throw Error(ErrorKind::bad_data,
                   fmt::format("{}: vertex {} has no value, expected a line for each vertex; "
-                              "--values gives them in a file",
+                              "--values FILE gives values to the vertices",
                               mark_place(input.name), v));
     };
     // Each vertex needs a line. If an id exceeds the number of lines, a line is missing.
@@ -319,14 +319,15 @@ std::optional<std::string> promise_of(const BuiltComplex& built, const RunFacts&
   if (const auto& sample = built.subsample) {
     const double late = 2 * sample->covering_radius;
     text = fmt::format(
-        "{} of {} points, covering radius {}: bars longer than {} are real and "
-        "are at most this much late",
+        "{} of {} points, covering radius {}: bars longer than {} are real, and their births and "
+        "deaths are at most this much too late",
         sample->points, sample->of, shortest(sample->covering_radius), shortest(late));
   }
   if (const auto& epsilon = rips->options().approximation; epsilon && facts.edges) {
     const auto n = static_cast<double>(*facts.vertices);
-    text += fmt::format("{}{} of {:.0f} edges: births and deaths are at most {} times too late",
-                        text.empty() ? "" : "; ", *facts.edges, n * (n - 1) / 2, one_and(*epsilon));
+    text += fmt::format(
+        "{}{} of {:.0f} edges: births and deaths are too late by a factor of at most {}",
+        text.empty() ? "" : "; ", *facts.edges, n * (n - 1) / 2, one_and(*epsilon));
   }
   if (text.empty()) return std::nullopt;
   const bool may_be_no_metric =
@@ -343,7 +344,7 @@ std::optional<std::string> hidden_points(const BuiltComplex& built) {
   constexpr std::size_t most_named = 10;
   if (!built.alpha || built.alpha->hidden.empty()) return std::nullopt;
   const std::span<const Index> hidden(built.alpha->hidden);
-  return fmt::format("{} hidden by points with larger weights and not in the complex: {}{}",
+  return fmt::format("{} not in the complex, hidden by points with larger weights: {}{}",
                      app::count_of(hidden.size(), "point"),
                      fmt::join(hidden.first(std::min(hidden.size(), most_named)), ", "),
                      hidden.size() > most_named ? ", …" : "");

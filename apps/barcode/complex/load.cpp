@@ -111,9 +111,10 @@ Loaded load(const Job& job, std::optional<Input>& input, app::Session& session, 
   const auto& [name, read, dropped, sha256] = data;
   // Scanners mark holes with NaN, so NaN in an image is an error only with --nan error.
   if (dropped > 0 && is_given(job, "nan") && job.reading.options.nan == NanPolicy::error)
-    throw Error(ErrorKind::bad_data,
-                fmt::format("{}: {} with NaN, expected numbers; --nan drop leaves them out",
-                            mark_place(name), app::count_of(dropped, "point")));
+    throw Error(
+        ErrorKind::bad_data,
+        fmt::format("{}: found {} with NaN, expected numbers; --nan drop leaves such points out",
+                    mark_place(name), app::count_of(dropped, "point")));
   const std::string what = fmt::format("read {}: {}", name, read.description);
   // In a batch, the line about each input states the format.
   if (job.reading.format == Format::automatic && job.inputs == std::vector{job.places.input})

@@ -16,8 +16,7 @@ namespace {
 
 constexpr ph::app::Program kProgram{
     "ph-barcode-mpi",
-    "take more ranks on more machines, ask for less (--max-dim), or raise "
-    "--memory-limit"};
+    "use more ranks on more machines, compute less (--max-dim), or raise --memory-limit"};
 
 /// True if an option such as --help is given. This option must be answered without MPI, which may
 /// be missing on a machine where users only ask for help.

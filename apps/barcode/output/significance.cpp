@@ -20,8 +20,8 @@ void require_significance(BarcodeFormat format, const Job& job) {
                        barcode_format_name(format)));
   if (job.question.options.min_persistence > 0)
     reject(
-        "--min-persistence, expected all bars: p compares each bar with the others; leave out bars "
-        "with a large p afterwards");
+        "--min-persistence, expected all bars, because p compares each bar with the others; leave "
+        "out bars with a large p afterwards");
   if (job.question.complex == ComplexKind::delaunay_rips)
     reject(
         "--complex delaunay-rips, expected rips, alpha or delaunay-cech, because p-values are "
@@ -29,10 +29,10 @@ void require_significance(BarcodeFormat format, const Job& job) {
   if (job.question.rips.dtm_neighbours || !job.question.vertex_weights.empty() ||
       !job.question.weights.empty())
     reject(
-        "vertices with weights, expected vertices that enter at 0: ratios of death and birth "
-        "are compared");
+        "vertices with weights, expected vertices that enter at 0, because p compares ratios of "
+        "death to birth");
   if (job.question.options.max_dim == 0)
-    reject("--max-dim 0, expected dimension 1 or above: components are born at 0");
+    reject("--max-dim 0, expected dimension 1 or above, because components are born at 0");
 }
 
 std::vector<double> p_values_of(const Barcode& barcode, DistanceFiltration filtration) {

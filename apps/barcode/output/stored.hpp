@@ -16,7 +16,7 @@ namespace ph::barcode {
 
 /// A hint for barcodes that are too large for the memory.
 inline std::string fewer_bars() {
-  return "take fewer bars, or raise " + mark(Setting::memory_limit);
+  return "use fewer bars, or raise " + mark(Setting::memory_limit);
 }
 
 /// Reads a stored barcode and writes what the job requests, such as a converted file, a plot or a

@@ -20,7 +20,7 @@ CloudInput read_cloud_input(const std::string& input, const Job& job, app::Sessi
                             why));
   if (job.question.rips.distance != PointDistance::euclidean)
     throw Error(ErrorKind::usage,
-                fmt::format("--metric: found a different one, expected euclidean with {}", why));
+                fmt::format("--metric: found another metric, expected euclidean with {}", why));
   NamedData data =
       read_input(Input::open(files::path_of(input), &session.context()), job, session.context());
   const std::string& description = data.read.description;

@@ -146,8 +146,8 @@ Outcome join_image_parts(std::vector<PartFile> files, const Job& job, app::Sessi
         fmt::format("--join: found {}, expected all; -o FILE.ph joins those given", words_of(all)));
   if (job.places.format == BarcodeFormat::json && !all.options().cells)
     throw Error(ErrorKind::usage,
-                "--output-format: found json, which shows the cells of bars; --part with "
-                "--keep-cells stores them");
+                "--output-format: found json, which needs the cells of bars; --part with "
+                "--keep-cells stores the cells");
   Outputs outputs(job.places);
   const BarcodeInfo info = info_of(all,
                                    fmt::format("image {}, {}", fmt::join(all.extents(), " x "),

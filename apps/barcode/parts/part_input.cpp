@@ -19,9 +19,9 @@ PartInput read_part_input(const std::string& input, bool keeps_cells, const Job&
       job.question.complex != ComplexKind::cubical)
     throw Error(
         ErrorKind::usage,
-        fmt::format("--complex: found a different one, expected cubical, or rips with --max-dim 0, "
-                    "with {}",
-                    why));
+        fmt::format(
+            "--complex: found another complex, expected cubical, or rips with --max-dim 0, for {}",
+            why));
   const Input opened =
       Input::open(files::path_of(input), &session.context(), Input::Excess::is_expected);
   if (job.reading.format == Format::automatic && is_barcode(opened))

@@ -36,9 +36,9 @@ std::vector<Index> shared_out(const PartInput& input, int parts, Post& post,
   const ImagePartForecast forecast = ImagePart::forecast(input.image, parts, input.options);
   if (is_unequal(forecast)) {
     layers = forecast.first_layers;
-    session.explain(
-        fmt::format("ranks begin with layers {}: otherwise one would take {:.1f} times the mean",
-                    fmt::join(layers, ", "), forecast.longest));
+    session.explain(fmt::format(
+        "ranks begin with layers {}: otherwise the slowest rank would take {:.1f} times the mean",
+        fmt::join(layers, ", "), forecast.longest));
   }
   ByteWriter to;
   to.put_list(layers, [&](Index layer) { to.put(std::int64_t{layer}); });

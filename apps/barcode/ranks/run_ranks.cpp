@@ -18,7 +18,8 @@ namespace ph::barcode {
 int run_ranks(const Job& job, Transport& transport, const std::function<void()>& wait_for_all,
               app::Session& session) {
   if (!job.wants_part_of_one())
-    throw Error(ErrorKind::usage, "INPUT: found several or a folder, expected one image or cloud");
+    throw Error(ErrorKind::usage,
+                "INPUT: found several inputs or a folder, expected one image or cloud");
   const bool is_image = job.wants_image_part();
   const Situation situation = is_image ? kRanks : kCloudRanks;
   app::require_in_scope(job.given, situation, name_of(situation));

@@ -156,7 +156,9 @@ std::optional<std::string> parse_command_line(Options& options, const CommonOpti
     throw Error(ErrorKind::usage, one_line(error.what()));
   }
   if (common.help) return help_text(described(app, manual, argc > 0 ? argv[0] : ""), *common.help);
-  if (common.quiet && common.verbose) throw Error(ErrorKind::usage, "--quiet excludes --verbose");
+  if (common.quiet && common.verbose)
+    throw Error(ErrorKind::usage,
+                "--quiet: cannot be combined with --verbose; leave out one of them");
   if (common.version) {
     return program_and_version(app.get_name()) + "\n" +
            (common.verbose ? build_information() + manual.built_in() : "");

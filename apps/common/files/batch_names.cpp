@@ -76,10 +76,11 @@ void prepare_outputs(std::string_view option, const std::string& pattern) {
   if (pattern.empty() || is_folder(pattern)) return;
   const std::size_t slash = pattern.rfind('/');
   if (!names_each(pattern))
-    throw Error(ErrorKind::usage,
-                fmt::format("{}: several inputs need a folder (FOLDER/) or a * for their names, "
-                            "found '{}'",
-                            option, printable(pattern)));
+    throw Error(
+        ErrorKind::usage,
+        fmt::format(
+            "{}: found '{}', expected a folder (FOLDER/) or a * for the names of several inputs",
+            option, printable(pattern)));
   if (slash != pattern.npos && slash > 0) create_folder(pattern.substr(0, slash));
 }
 

@@ -172,8 +172,9 @@ void require_one_on_standard_output(const Arguments& a) {
   for (const auto& [option, path] : {std::pair{"--matching", a.matching}, {"--matrix", a.matrix}})
     if (path == "-") {
       if (!first.empty())
-        reject(fmt::format("{0}: standard output has the result of {1}; {0} FILE, or {1} FILE",
-                           option, first));
+        reject(fmt::format(
+            "{0}: standard output already has the result of {1}; use {0} FILE or {1} FILE", option,
+            first));
       first = option;
     }
 }
@@ -198,7 +199,9 @@ void check_together(const Arguments& a) {
   // mutant: matching-error
   if (!a.matching.empty() && a.distance.kind == DistanceKind::bottleneck &&
       a.distance.limits.relative_error > 0)
-    reject("--error: found with --matching, which is exact with --distance bottleneck");
+    reject(
+        "--error: cannot be combined with --matching and --distance bottleneck, whose matchings "
+        "are exact");
   require_format("--matching", a.matching, {BarcodeFormat::csv, BarcodeFormat::json},
                  "FILE.csv or FILE.json");
   require_format("--matrix", a.matrix, {BarcodeFormat::csv, BarcodeFormat::npy},

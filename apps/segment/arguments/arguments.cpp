@@ -31,7 +31,7 @@ double depth_scale(const std::string& text) {
   if (scale < 1)
     throw Error(ErrorKind::usage,
                 fmt::format("--depth-scale: found {0}, expected units per metre, at least 1; if a "
-                            "unit is {0} m: 1 / {0} = {1:.6g}",
+                            "unit is {0} m, the scale is {1:.6g}",
                             text, 1 / scale));
   return scale;
 }
@@ -134,7 +134,7 @@ void require_consistent(const Arguments& a) {
                     printable(a.inputs.front())));
   if (!depth && !a.is_stream() && !may_be_image(a.inputs.front())) {
     if (a.image.has_camera())
-      throw Error(ErrorKind::usage, fmt::format("{}: expected a depth image, found a cloud",
+      throw Error(ErrorKind::usage, fmt::format("{}: found a cloud, expected a depth image",
                                                 a.image.camera ? "--intrinsics" : "--camera"));
   }
 }
@@ -154,9 +154,11 @@ std::optional<std::string> parse_arguments(int argc, const char* const* argv, Ar
   if (auto answer = app::parse_command_line(options, a.common, argc, argv, manual())) return answer;
   if (known.supervoxels->count() > 0) {
     if (known.method->count() > 0 && a.options.method != Method::supervoxels) {
-      throw Error(ErrorKind::usage,
-                  fmt::format("--supervoxels: found --method {}, expected supervoxels or none",
-                              kMethodNames[static_cast<std::size_t>(a.options.method)]));
+      throw Error(
+          ErrorKind::usage,
+          fmt::format(
+              "--supervoxels: found --method {}, expected --method supervoxels or no --method",
+              kMethodNames[static_cast<std::size_t>(a.options.method)]));
     }
     a.options.method = Method::supervoxels;
   }

@@ -25,7 +25,7 @@ void load_camera(DepthInput& image, app::Session& session) {
     for (const CameraPreset& known : camera_presets()) names.push_back(known.name);
     const auto near = app::nearest_name(image.calibration, names);
     throw Error(ErrorKind::no_input,
-                fmt::format("--camera: found '{}', expected a file that is there or one of {}{}",
+                fmt::format("--camera: found '{}', expected an existing file or one of {}{}",
                             printable(image.calibration), fmt::join(names, ", "),
                             near ? fmt::format("; did you mean '{}'?", *near) : ""));
   }

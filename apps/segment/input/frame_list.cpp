@@ -51,9 +51,10 @@ std::optional<std::string> FrameList::read_name() {
   while (std::optional<std::string> line = read_line()) {
     if (line->ends_with('\r')) line->pop_back();
     if (const std::size_t nul = line->find('\0'); nul != std::string::npos)
-      throw Error(ErrorKind::bad_data,
-                  fmt::format("--frames-from: found a NUL after '{}', expected one name per line",
-                              printable(line->substr(0, nul))));
+      throw Error(
+          ErrorKind::bad_data,
+          fmt::format("--frames-from: found a NUL byte after '{}', expected one name per line",
+                      printable(line->substr(0, nul))));
     if (!line->empty()) return line;
   }
   return std::nullopt;

@@ -184,7 +184,7 @@ void check_together(const Arguments& a) {
   if (std::ranges::count(a.inputs, "-") + (a.fitted == "-") > 1)
     reject("INPUT: standard input can be read once only");
   if (a.output == "-" && a.fit == "-")
-    reject("--fit: standard output has the table; -o FILE, or --fit FILE");
+    reject("--fit: standard output already has the table; use -o FILE or --fit FILE");
   std::vector<int> dims = a.dims;
   std::ranges::sort(dims);
   if (const auto twice = std::ranges::adjacent_find(dims); twice != dims.end())

@@ -26,7 +26,7 @@ constexpr app::Scope kOfImages{situation_of(Kind::euler) | kFitting | kFitted | 
                                "images with --kind euler"};
 constexpr app::Scope kOfNewImages{kOfImages.where & ~kFitted, kOfImages.meant_for};
 constexpr app::Scope kNotFitted{kAllKinds | kFitting | kOfBarcode | kOfImage,
-                                "what is not fitted yet"};
+                                "vectors that are not fitted yet"};
 constexpr app::Scope kOfPersistenceImages{of({Kind::image}), "--kind image"};
 constexpr app::Scope kOfAtol{of({Kind::atol}), "--kind atol"};
 

@@ -15,7 +15,7 @@ std::size_t product(const std::vector<std::size_t>& shape) {
   std::size_t numbers = 1;
   for (const std::size_t n : shape)
     if (__builtin_mul_overflow(numbers, n, &numbers))
-      throw Error(ErrorKind::resource, "a vector has more numbers than can be counted");
+      throw Error(ErrorKind::resource, "a vector would have more numbers than 64 bits can count");
   return numbers;
 }
 

@@ -99,10 +99,9 @@ Alpha::Alpha(PointsView points, const AlphaOptions& options, const RunContext& c
   if (std::isnan(threshold_))
     throw Error(ErrorKind::usage, "threshold: found nan, expected a number");
   if (!options.weights.empty() && unit_ == AlphaOptions::Unit::radius)
-    throw Error(
-        ErrorKind::usage,
-        "alpha complex of weighted points: found the unit radius, expected squared, because "
-        "squares may be negative");
+    throw Error(ErrorKind::usage,
+                "alpha complex of weighted points: found the unit radius, expected squared, "
+                "because squared radii may be negative");
   if (!options.weights.empty() && kind_ != AlphaOptions::Value::alpha)
     throw Error(ErrorKind::usage,
                 "alpha complex of weighted points: found values other than alpha, which need "

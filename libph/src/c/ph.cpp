@@ -131,9 +131,9 @@ Options task_of(const ph_options& given) {
     throw Error(ErrorKind::usage,
                 fmt::format("ph_options::max_dim: found {}, expected -1 or more", given.max_dim));
   if (given.max_dim >= 0 && given.min_dim > given.max_dim)
-    throw Error(ErrorKind::usage, fmt::format("ph_options::min_dim: found {}, expected at most "
-                                              "max_dim, {}",
-                                              given.min_dim, given.max_dim));
+    throw Error(ErrorKind::usage,
+                fmt::format("ph_options::min_dim: found {}, expected at most max_dim ({})",
+                            given.min_dim, given.max_dim));
   Options options;
   if (given.max_dim >= 0) options.max_dim = given.max_dim;
   options.min_dim = given.min_dim;

@@ -42,7 +42,7 @@ struct EqualVertices {
 void check_size(std::size_t cells) {
   if (cells >= std::numeric_limits<std::uint32_t>::max()) {
     throw Error(ErrorKind::resource,
-                fmt::format("an explicit complex holds at most 2^32 - 2 cells, found {}", cells));
+                fmt::format("explicit complex: found {} cells, expected at most 2^32 - 2", cells));
   }
 }
 

@@ -100,9 +100,10 @@ class Grid {
       const double extent = std::floor((high - low) / voxel) + 1 + 2 * margin_;
       size *= extent;
       if (!(size < 4294967295.0))
-        throw Error(
-            ErrorKind::resource,
-            fmt::format("a voxel size of {} makes an image of more than 2^32 - 2 voxels", voxel));
+        throw Error(ErrorKind::resource,
+                    fmt::format("voxel: found {}, which makes an image of more than 2^32 - 2 "
+                                "voxels; use a larger voxel",
+                                voxel));
       extents_.push_back(static_cast<Index>(extent));
     }
     size_ = static_cast<std::size_t>(size);

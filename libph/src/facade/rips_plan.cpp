@@ -29,9 +29,9 @@ constexpr int kHighestByEdges = 3;
 /// The reason why a collapse would spoil the result, or an empty text if it would not.
 std::string_view obstacle_to_collapse(const Options& options) {
   // mutant: collapse-zero-length
-  if (options.min_persistence < 0) return "bars of length zero are asked for";
+  if (options.min_persistence < 0) return "bars of length zero are requested";
   if (options.representatives == Representatives::cocycles)
-    return "cocycles are asked for, and cocycles on the remaining edges have no values on the "
+    return "cocycles are requested, and cocycles on the remaining edges have no values on the "
            "removed ones";
   return {};
 }
@@ -46,12 +46,12 @@ struct CollapseChoice {
 template <class Dominated>
 CollapseChoice choose_collapse(const EngineFacts& engine, const Options& options,
                                Dominated&& dominated) {
-  if (options.collapse == Collapse::off) return {false, "asked for"};
+  if (options.collapse == Collapse::off) return {false, "requested"};
   const std::string_view spoilt = obstacle_to_collapse(options);
   if (options.collapse == Collapse::on) {
     if (!spoilt.empty())
       throw Error(ErrorKind::usage, fmt::format("edge collapse is not possible: {}", spoilt));
-    return {true, "asked for"};
+    return {true, "requested"};
   }
   if (!spoilt.empty()) return {false, std::string(spoilt)};
   if (engine.goes_by_edges) return {false, "the engine looks only at edges"};
@@ -163,7 +163,7 @@ FormChoice choose_form(const Rips& rips, const Options& options, int max_dim, In
     const std::optional<RipsForm> form = form_for(engine, rips, options);
     const bool can_run = engine.rips_obstacle ? obstacle.empty() : engine.can_run(filtration, task);
     if (!form || !can_run) continue;
-    const Suitability suits = is_asked                  ? Suitability{1, "asked for"}
+    const Suitability suits = is_asked                  ? Suitability{1, "requested"}
                               : engine.rips_suitability ? engine.rips_suitability(input, task)
                                                         : engine.suitability(filtration, task);
     if (suits.rank <= rank) continue;

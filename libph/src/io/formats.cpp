@@ -117,7 +117,7 @@ ReadResult perseus_result(const Input& input, const ReadOptions& options) {
     result.periodic = std::move(perseus.periodic);
   }
   detail::note(options,
-               "Perseus and GUDHI take the values as values of the top-dimensional cubes, as " +
+               "Perseus and GUDHI read the values as values of the top-dimensional cubes, as " +
                    mark(Setting::construction, "cells") + " does");
   return result;
 }

@@ -150,7 +150,8 @@ ArrayGuess guess_array(const Input& input, const ReadOptions& options) {
                   fmt::format("a {} {} with values from -1 to 1 and ones on its diagonal",
                               symmetric, shape),
                   "an option that says which",
-                  fmt::format("{} takes distances 1 - r; {} reads an image, {} one point per row",
+                  fmt::format("{} reads correlations r as distances 1 - r; {} reads an image, {} "
+                              "one point per row",
                               mark(Setting::from_correlation), mark(Setting::complex, "cubical"),
                               mark(Setting::format, "points"))});
     }

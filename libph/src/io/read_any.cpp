@@ -84,11 +84,11 @@ Format format_of_text(const Input& input, const ReadOptions& options) {
         options,
         fmt::format("square with a zero diagonal: read as distances; {} reads points", as_points));
   } else if (guess.table.rows > 2 && is_of_ones) {
-    input.fail(
-        {"correlations or points",
-         fmt::format("{}, {}, from -1 to 1 with ones on the diagonal", size, symmetric),
-         "an option that says which",
-         fmt::format("{} takes distances 1 - r, {} one point per row", correlations, as_points)});
+    input.fail({"correlations or points",
+                fmt::format("{}, {}, from -1 to 1 with ones on the diagonal", size, symmetric),
+                "an option that says which",
+                fmt::format("{} reads correlations r as distances 1 - r, {} one point per row",
+                            correlations, as_points)});
   } else if (guess.table.same_names && (guess.table.square == SquareKind::symmetric ||
                                         guess.table.square == SquareKind::nearly_symmetric)) {
     input.fail({"distances, correlations or points",

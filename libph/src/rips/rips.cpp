@@ -284,7 +284,7 @@ const RipsGraph& Rips::graph(RipsForm form, const RunContext& context) const {
   if (!state.given) static_cast<void>(state.data());
   if (!has_form(form))
     throw Error(ErrorKind::usage,
-                fmt::format("Rips: found a filtration {}, which has no form with {}",
+                fmt::format("Rips: found a filtration {}, which cannot be built from {}",
                             state.given                   ? "of a graph"
                             : state.options.approximation ? "that is approximated"
                                                           : "of distances",

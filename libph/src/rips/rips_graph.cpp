@@ -14,8 +14,9 @@ namespace ph {
 
 void RipsGraph::check_size(Index size) {
   if (size < 0 || size >= Index{UINT32_MAX}) {
-    throw Error(ErrorKind::resource,
-                fmt::format("a Rips filtration holds fewer than 2^32 - 1 points, found {}", size));
+    throw Error(
+        ErrorKind::resource,
+        fmt::format("Rips filtration: found {} points, expected fewer than 2^32 - 1", size));
   }
 }
 
@@ -166,11 +167,9 @@ RipsGraph::RipsGraph(Index size, double threshold, BinnedEdges&& edges, const Ru
       names_(&context.memory),
       births_(births.begin(), births.end(), &context.memory) {
   if (edges_.size() >= RipsAdjacency::kNever) {
-    throw Error(
-        ErrorKind::resource,
-        fmt::format("a Rips filtration holds fewer than 2^32 - 1 edges, found {}; lower the "
-                    "threshold or subsample",
-                    edges_.size()));
+    throw Error(ErrorKind::resource, fmt::format("Rips filtration: found {} edges, expected fewer "
+                                                 "than 2^32 - 1; lower the threshold or subsample",
+                                                 edges_.size()));
   }
 }
 

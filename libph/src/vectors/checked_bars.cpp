@@ -83,10 +83,11 @@ FiniteBars finite_bars(std::span<const Bar> bars, const InfiniteBars& rule) {
         continue;
       }
       if (rule.rule == Rule::refuse || !has_birth)
-        throw Error(ErrorKind::bad_data,
-                    fmt::format("{}: found a bar [{}, {}), expected finite bars{}",
-                                mark_place("finite_bars"), bar.birth, bar.death,
-                                rule.rule == Rule::cap ? "; a cap is for deaths" : ""));
+        throw Error(
+            ErrorKind::bad_data,
+            fmt::format("{}: found a bar [{}, {}), expected finite bars{}",
+                        mark_place("finite_bars"), bar.birth, bar.death,
+                        rule.rule == Rule::cap ? "; a cap replaces only infinite deaths" : ""));
       if (bar.birth > rule.cap)
         throw Error(ErrorKind::usage,
                     fmt::format("{}: cap: found {}, expected at least {}, the birth of a bar that "

@@ -80,7 +80,8 @@ class Chain:
     def _loops_found(self) -> tuple[list[Loop], str]:
         if self._found is None:
             if self._bars.representatives == "cocycles":
-                raise UsageError("loops: found a cocycle, expected representatives='cycles'")
+                raise UsageError("loops: found a cocycle, expected a cycle, as "
+                                 "representatives='cycles' gives")
             if self._bars.cell_kind == "row":
                 raise UsageError("loops: found rows of a boundary matrix, expected edges with "
                                  "vertices")

@@ -26,7 +26,7 @@ def plot(bars: Barcode, kind: Any, ax: Axes | None, noise: float | None, style: 
         _, ax = matplotlib.pyplot.subplots()
     if noise is not None:
         if kind != "diagram":
-            raise UsageError(f"noise: does nothing for kind={kind!r}, expected a diagram")
+            raise UsageError(f"noise: does nothing for kind={kind!r}, expected kind='diagram'")
         noise = _options.real("noise", noise, "a finite number, at least 0", 0)
         low, high = _ends(bars).finite
         ax.fill_between([low, high], [low, high], [low + noise, high + noise], color="0.9",

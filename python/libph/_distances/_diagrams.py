@@ -46,7 +46,7 @@ def _rows(bars: Any, name: str, dim: int | None) -> NDArray[np.float64]:
         for row in bars:
             if isinstance(row, np.ndarray) and row.ndim == 2:
                 raise UsageError(f"{name}: found a list of arrays, expected one array of rows "
-                                 f"birth, death; {name}[1] has those of H1")
+                                 f"birth, death; {name}[1] has the rows of H1")
             if isinstance(row, tuple) and len(row) == 2 and isinstance(row[1], tuple):
                 raise UsageError(f"{name}: found pairs (dimension, (birth, death)), expected rows "
                                  "birth, death, of one dimension")

@@ -83,7 +83,7 @@ class ImagePart(Part):
         _run.check_names("barcode", run, self.barcode)
         meta = self._meta()
         given: list[Barcode] = [] if loops is None else _options.several(
-            "loops", loops, "what ImageLoops.barcode gives of each part")
+            "loops", loops, "what ImageLoops.barcode gives for each part")
         self._check_loops(given)
         field = given[0].meta["field"] if given else 2
         bars = _run.run(_core.image_part_bars, self._bytes, [bars._bars for bars in given], field,
@@ -105,7 +105,7 @@ class ImagePart(Part):
                                  "ImageLoops.barcode gives")
         if not self.has_loops:
             if loops:
-                raise UsageError("loops: found some, for an image that has none")
+                raise UsageError("loops: found loops, expected none for an image without loops")
             return
         found = sorted(bars.meta["part"] for bars in loops)
         if found != list(range(self.parts)):

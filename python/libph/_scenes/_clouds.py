@@ -26,7 +26,7 @@ def scene_of(data: Any, *, colours: Any, intrinsics: Any, camera: Any, depth_sca
     """Reads the input from an array or a file."""
     is_path = isinstance(data, (str, bytes, os.PathLike))
     if intrinsics is not None and camera is not None:
-        raise UsageError("camera: excludes intrinsics")
+        raise UsageError("camera: cannot be combined with intrinsics; leave out one of them")
     name = os.fsdecode(data) if is_path else ""
     if intrinsics is None and camera is None:
         if depth_scale is not None:
@@ -40,8 +40,8 @@ def scene_of(data: Any, *, colours: Any, intrinsics: Any, camera: Any, depth_sca
     seen_by = _camera(intrinsics, camera, run)
     scale = None if depth_scale is None else _scale(depth_scale)
     if colours is not None and isinstance(colours, (str, bytes, os.PathLike)) != is_path:
-        raise _options.refuse("colours", colours, "a path, as the depth image is one" if is_path
-                              else "an array, as the depth image is one")
+        raise _options.refuse("colours", colours, "a path, like the depth image" if is_path
+                              else "an array, like the depth image")
     if not is_path:
         return Scene(_depth(data, colours, seen_by, scale, run), name, True)
     cloud = _run.run(_core.read_depth, path_of(data, "cloud"),
@@ -54,7 +54,7 @@ def _scale(value: Any) -> float:
     scale = _options.positive("depth_scale", value)
     if scale < 1:
         raise UsageError(f"depth_scale: found {scale}, expected units per metre, at least 1; if a "
-                         f"unit is {scale} m: {1 / scale:.6g}")
+                         f"unit is {scale} m, the scale is {1 / scale:.6g}")
     return scale
 
 
@@ -66,8 +66,8 @@ def _camera(intrinsics: Any, name: Any, run: dict[str, Any]) -> _core.Camera:
         return known
     path = path_of(name, "camera")
     if not os.path.exists(path):
-        raise MissingInputError(f"camera: found {os.fsdecode(path)!r}, expected a file that is "
-                                f"there or one of {', '.join(_core.camera_names())}")
+        raise MissingInputError(f"camera: found {os.fsdecode(path)!r}, expected an existing file "
+                                f"or one of {', '.join(_core.camera_names())}")
     return _run.run(_core.read_camera, path, options=run)
 
 
@@ -111,7 +111,7 @@ def _depth(data: Any, colours: Any, camera: _core.Camera, scale: float | None, r
     array = _arrays.as_array(data, "cloud")
     if array.ndim != 2:
         raise UsageError(f"cloud: found an array of shape {array.shape}, expected a depth image of "
-                         "rows and columns, as a camera is given")
+                         "rows and columns, because a camera is given")
     if scale is None:  # masked integers have been converted to floats
         given = data if isinstance(data, np.ma.MaskedArray) else array
         scale = 1.0 if given.dtype.kind == "f" else 1000.0

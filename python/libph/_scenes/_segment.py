@@ -167,7 +167,8 @@ def _options_of(o: dict[str, Any]) -> _core.SegmentOptions:
     method = o["method"]
     if o["supervoxels"] is not None:
         if method not in (None, "supervoxels"):
-            raise UsageError(f"supervoxels: found method={method!r}, expected 'supervoxels' or none")
+            raise UsageError(f"supervoxels: found method={method!r}, expected method='supervoxels' "
+                             "or no method")
         method = "supervoxels"
     method = "surface" if method is None else _options.choice("method", method, _METHODS)
     plane = _options.flag("plane", o["plane"])
@@ -204,7 +205,7 @@ def _if_given(check: Any, name: str, options: dict[str, Any], default: Any = Non
 def _plane_of(name: str, value: Any) -> tuple[float, ...] | None:
     """The plane of a segmentation, and the share of the points that belong to it."""
     if not isinstance(value, Segmentation):
-        raise _options.refuse(name, value, "the result of ph.segment for the frame before")
+        raise _options.refuse(name, value, "the result of ph.segment for the previous frame")
     plane = value.meta.get("plane")
     return None if plane is None else (*plane, value.meta["plane_share"])
 
@@ -236,7 +237,7 @@ def _steps(name: str, value: Any) -> int:
 def _point(name: str, value: Any) -> list[float]:
     numbers = _arrays.as_float64(_arrays.as_array(value, name), name)
     if numbers.shape != (3,) or not np.isfinite(numbers).all():
-        raise _options.refuse(name, value, "x, y, z, finite")
+        raise _options.refuse(name, value, "three finite numbers x, y, z")
     return [float(number) for number in numbers]
 
 

@@ -196,7 +196,7 @@ class Segmentation:
         if value is not None:
             value = _options.real("value", value, "a number, at least 0", 0)
             if n is not None:
-                raise UsageError("n: excludes value")
+                raise UsageError("n: cannot be combined with value; leave out one of them")
             if value > self.meta.get("distance", np.inf):
                 raise _options.refuse("value", value, f"at most {self.meta['distance']}, the "
                                       "distance up to which the tree was made")
@@ -385,5 +385,5 @@ def _distance_of(n: int, values: NDArray[np.float64], sizes: NDArray[np.int64], 
 
 
 def _no_cut(n: int, counts: Sequence[str]) -> UsageError:
-    return UsageError(f"n: found no cut into {n} objects; the nearest ones give "
+    return UsageError(f"n: found no cut into {n} objects; the nearest cuts give "
                       f"{' and '.join(counts) or 'none'}")

@@ -144,8 +144,8 @@ def _pairwise(X: Any, metric: Any, *others: Any) -> NDArray[Any]:
     try:
         from sklearn.metrics import pairwise_distances
     except ImportError:
-        raise NotBuiltIn("ripser: distances of points come from scikit-learn, which is not "
-                         "installed; distance_matrix=True takes distances, ph.rips points"
+        raise NotBuiltIn("ripser: distances between points need scikit-learn, which is not "
+                         "installed; distance_matrix=True takes distances, ph.rips takes points"
                          ) from None
     return np.asarray(pairwise_distances(X, *others, metric=metric))
 

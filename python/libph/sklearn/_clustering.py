@@ -113,7 +113,8 @@ class PersistenceClustering(ClusterMixin, BaseEstimator):
         k = _options.whole("k", self.k, 1)
         metric = _options.choice("metric", self.metric, [*METRICS, "precomputed"])
         if self.n_clusters is not None and self.min_persistence is not None:
-            raise UsageError("n_clusters: excludes min_persistence")
+            raise UsageError("n_clusters: cannot be combined with min_persistence; leave out one "
+                             "of them")
         points = table_of(self, X, reset=True)
         if metric == "precomputed" and points.shape[0] != points.shape[1]:
             raise UsageError(f"X: found a matrix of shape {points.shape}, expected a square one of "

@@ -107,8 +107,8 @@ class _Persistence(MakesTables, TransformerMixin, TakesLists):
         if self.infinity is not None:
             checked_infinity(self.infinity, may_keep=False)
         if self.output == "barcode" and (self.infinity is not None or self.reduced):
-            raise UsageError("output: found 'barcode', which is as it was computed; infinity and "
-                             "reduced need 'list' or 'giotto'")
+            raise UsageError("output: found 'barcode', which keeps the bars as computed; infinity "
+                             "and reduced need 'list' or 'giotto'")
         return dims
 
     def _samples(self, X: Any) -> Sequence[Any]:

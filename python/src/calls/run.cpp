@@ -218,10 +218,9 @@ class Computation {
 }  // namespace
 
 Timeout::Timeout(double seconds)
-    : Error(ErrorKind::cancelled,
-            fmt::format("timeout: not done after {} s; a larger timeout, a smaller max_dim or a "
-                        "subsample helps",
-                        seconds)) {}
+    : Error(ErrorKind::cancelled, fmt::format("timeout: not finished after {} s; a larger timeout, "
+                                              "a smaller max_dim or a subsample may help",
+                                              seconds)) {}
 
 void run_task(const RunOptions& options, bool is_short, const Task& task) {
   if (!is_short || options.is_watched()) {

@@ -77,14 +77,14 @@ auto RunningLoops::changed(const RunContext& call, Use&& use) {
 }
 
 void RunningLoops::require_sound() const {
-  if (is_broken_) refuse("found that a call has failed, expected a new start with a new part");
+  if (is_broken_) refuse("an earlier call failed; start again with a new part");
 }
 
 void RunningLoops::begin(std::span<const std::byte> told, const RunOptions& options) {
   run(options, false, [&](const RunContext& call) {
     const std::lock_guard lock(mutex_);
     require_sound();
-    if (has_begun_) refuse("found that they have begun already, expected to begin only once");
+    if (has_begun_) refuse("found a second call of begin, expected only one");
     return changed(call, [&] {
       loops_->begin(told);
       has_begun_ = true;

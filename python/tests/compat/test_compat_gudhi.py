@@ -227,7 +227,7 @@ def test_what_is_elsewhere():
     ({"distance_matrix": [[0, 1], [2, 0]]}, "asymmetric"),
     ({"points": SQUARE, "sparse": 1.0}, "sparse"),
     ({"distance_matrix": np.zeros((2, 3))}, "distance_matrix"),
-    ({"points": SQUARE, "distance_matrix": [[0]]}, "points: exclude"),
+    ({"points": SQUARE, "distance_matrix": [[0]]}, "points: cannot be combined"),
     ({"points": SQUARE, "max_edge_length": -1}, "max_edge_length: found -1")])
 def test_errors(options, text):
     with pytest.raises(ph.Error, match=text):

@@ -345,7 +345,7 @@ def test_delay_embedding_needs_room_for_what_it_copies(monkeypatch):
     monkeypatch.setattr(ph._core, "memory_left", lambda: 2**24)
     series = np.zeros((400_000, 2))
     for arguments, given in (((3, 2), series), ((3, 1), np.asfortranarray(series))):
-        with pytest.raises(ph.MemoryLimitError, match="a result of shape .* exceed the memory"):
+        with pytest.raises(ph.MemoryLimitError, match="a result of shape .* exceed the available memory"):
             ph.delay_embedding(given, *arguments)
     assert np.shares_memory(ph.delay_embedding(series, 3), series)  # a view, not a copy
     assert ph.delay_embedding(np.empty((6, 0)), 2).shape == (5, 0)

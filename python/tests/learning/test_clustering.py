@@ -278,7 +278,7 @@ def test_points_that_lie_on_each_other():
 @pytest.mark.parametrize("how, words", [
     ({"k": 0}, "k: found 0"), ({"n_clusters": 0}, "n_clusters: found 0"),
     ({"min_persistence": -1}, "min_persistence: found -1"),
-    ({"n_clusters": 2, "min_persistence": 1}, "n_clusters: excludes min_persistence"),
+    ({"n_clusters": 2, "min_persistence": 1}, "n_clusters: cannot be combined with min_persistence"),
     ({"density": "kde"}, "density: found 'kde'"), ({"metric": "hamming"}, "metric: found 'hamming'"),
     ({"density": lambda X: np.zeros(len(X))}, "density: row 0: found 0.0"),
     ({"density": lambda X: np.ones(3)}, r"density: found an array of shape \(3,\), expected 20")])

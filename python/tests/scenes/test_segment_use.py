@@ -27,7 +27,7 @@ def test_so_many_objects(rng, options):
         try:
             other = found.cut(n=n)
         except ph.UsageError as error:
-            assert re.search(r"found no cut into \d+ objects; the nearest ones give \d+", str(error))
+            assert re.search(r"found no cut into \d+ objects; the nearest cuts give \d+", str(error))
             continue
         reached += 1
         assert len(other.objects) == n and other.labels.max() == n
@@ -108,11 +108,11 @@ DEPTH = np.full((20, 30), 0.5)
     (CLOUD, {"intrinsics": (1, 2, 3)}, ph.UsageError, "intrinsics: found .* expected fx, fy, cx, cy"),
     (CLOUD, {"intrinsics": np.ones((3, 3))}, ph.UsageError, "intrinsics"),
     (CLOUD[None], {"intrinsics": CAMERA}, ph.UsageError, "expected a depth image"),
-    (DEPTH, {"intrinsics": CAMERA, "camera": "kinect-v1"}, ph.UsageError, "excludes"),
-    (DEPTH, {"camera": "kinect-v7"}, ph.MissingInputError, "expected a file that is there or one of"),
+    (DEPTH, {"intrinsics": CAMERA, "camera": "kinect-v1"}, ph.UsageError, "camera: cannot be combined"),
+    (DEPTH, {"camera": "kinect-v7"}, ph.MissingInputError, "expected an existing file or one of"),
     (DEPTH, {"camera": "kinect-v1"}, ph.UsageError, "camera kinect-v1: "),
     (DEPTH, {"intrinsics": (0, 1, 1, 1)}, ph.UsageError, "focal lengths 0 and 1"),
-    (DEPTH, {"intrinsics": CAMERA, "depth_scale": 0.001}, ph.UsageError, "if a unit is 0.001 m: 1000"),
+    (DEPTH, {"intrinsics": CAMERA, "depth_scale": 0.001}, ph.UsageError, "if a unit is 0.001 m, the scale is 1000"),
     (DEPTH, {"intrinsics": CAMERA, "colours": np.zeros((20, 31, 3), np.uint8)}, ph.UsageError,
      r"colours: found an array of shape \(20, 31, 3\), expected \(20, 30, 3\)"),
     (CLOUD, {"colours": CLOUD * 2}, ph.DataError, "colours: row .* a number from 0 to 1"),
@@ -174,14 +174,14 @@ def test_a_stored_tree_has_no_options(tmp_path):
 
 def test_words_of_results(tmp_path):
     found = ph.segment(TABLE)
-    for act, words in ((lambda: found.cut(0.1, n=2), "excludes"), (lambda: found.cut(-1), "value"),
+    for act, words in ((lambda: found.cut(0.1, n=2), "n: cannot be combined"), (lambda: found.cut(-1), "value"),
                        (lambda: found.signature(), "labels: found none"),
                        (lambda: found.signature(3), "labels: found 3"),
                        (lambda: found.first_meeting(0, 1), "a: found 0"),
                        (lambda: found.save(tmp_path / "x.obj"), r"path: found .*expected \.npy"),
                        (lambda: found.save(tmp_path / "x", format="obj"), "format: found 'obj'"),
-                       (lambda: found.cut(n=10**6), "no cut into 1000000 .* the nearest ones give 2"),
-                       (lambda: found.cut(n=0), "no cut into 0 .* the nearest ones give 2")):
+                       (lambda: found.cut(n=10**6), "no cut into 1000000 .* the nearest cuts give 2"),
+                       (lambda: found.cut(n=0), "no cut into 0 .* the nearest cuts give 2")):
         with pytest.raises(ph.UsageError, match=words):
             act()
     with pytest.raises(ph.OutputError):

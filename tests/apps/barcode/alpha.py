@@ -152,8 +152,8 @@ class Alpha(ProgramTest):
         # The balls of radius 1 and 2 touch. The third ball lies between them and stays inside the
         # first at all times.
         self.assertEqual(rows(done.stdout), [(0, -4, math.inf), (0, -1, 0)])
-        self.assertIn("1 point hidden by points", done.stderr)
-        self.assertIn("not in the complex: 2", done.stderr)
+        self.assertIn("1 point not in the complex, hidden by points", done.stderr)
+        self.assertIn("with larger weights: 2", done.stderr)
         self.expect(0, "two.txt", "--complex", "alpha", "--weights", "weights.txt", "-o", "bars.json")
         document = json.loads(self.read("bars.json"))
         self.assertEqual((document["complex"], document["vertex_weights"], document["alpha"]),
@@ -177,10 +177,10 @@ class Alpha(ProgramTest):
                          self.bars(*one, "--period", "2"))
         for arguments, words in ((["--period", "1,2"], "found 2 numbers for 3 axes"),
                                  (["--period", "-1"], "--period: found '-1'"),
-                                 (["--period", "2", "--wrap", "1=x.ply"], "expected a space that does not close up"),
+                                 (["--period", "2", "--wrap", "1=x.ply"], "--wrap: cannot be combined with --period"),
                                  (["--period", "2", "--plot", "x.svg", "--plot-kind", "tree"], "no merge tree")):
             self.assertIn(words, self.expect(64, *one, *arguments).stderr)
-        self.assertIn("expected alpha", self.expect(64, "one.txt", "--complex", "delaunay-rips", "--period",
+        self.assertIn("expected --complex alpha", self.expect(64, "one.txt", "--complex", "delaunay-rips", "--period",
                                                     "2").stderr)
 
     def test_points_that_were_left_out_keep_numbers(self):
@@ -249,8 +249,8 @@ class Alpha(ProgramTest):
                 (64, [*alpha, "--metric", "manhattan"], "--metric: makes sense for"),
                 (64, [*alpha, "--subsample", "3"], "--subsample: makes sense for"),
                 (64, [*alpha, "--weights", "weights.txt", "--alpha-values", "radius"], "expected squared"),
-                (64, ["unit.txt", "--complex", "delaunay-cech", "--weights", "weights.txt"], "expected alpha"),
-                (64, ["unit.txt", "--complex", "delaunay-rips", "--wrap", "1=x.ply"], "expected alpha"),
+                (64, ["unit.txt", "--complex", "delaunay-cech", "--weights", "weights.txt"], "expected --complex alpha"),
+                (64, ["unit.txt", "--complex", "delaunay-rips", "--wrap", "1=x.ply"], "expected --complex alpha"),
                 (64, ["unit.txt", "--complex", "delaunay-rips", "--significance"], "known only for these"),
                 (64, [*alpha, "--weights", "weights.txt", "--significance"], "vertices with weights"),
                 (65, [*alpha, "--weights", "few.txt"], "few.txt"),
@@ -261,7 +261,7 @@ class Alpha(ProgramTest):
                 (64, [*alpha, "--alpha-shape", "1=x.stl"], "expected R=FILE.ply"),
                 (64, [*alpha, "--wrap", "far=x.ply"], "--wrap"),
                 (64, [*alpha, "--threshold", "0.5", "--wrap", "0.6=x.ply"],
-                 "--wrap: found 0.6, expected at most --threshold, 0.5"),
+                 "--wrap: found 0.6, expected at most --threshold (0.5)"),
                 (64, [*alpha, "--loops", "tight", "--representatives", "cycles", "--output-format",
                       "json"], "--loops plain"),
                 (64, ["unit.txt", "--wrap", "1=x.ply"], "--wrap: makes sense for points with --complex alpha")):

@@ -66,7 +66,7 @@ class Loops(ProgramTest):
         for dimensions in (["--max-dim", "0"], ["--min-dim", "2", "--max-dim", "2"]):
             run = self.expect(64, "square.txt", "--loops", "plain", "--representatives", "cycles",
                               "-o", "x.json", *dimensions)
-            self.assertIn("without dimension 1", run.stderr)
+            self.assertIn("needs dimension 1", run.stderr)
         asked = ["--representatives", "cycles", "-o", "x.json", "--loops"]
         self.write("hole.npy", files.array((3, 3), [1.0] * 4 + [5.0] + [1.0] * 4))
         run = self.expect(64, "hole.npy", *asked, "tight")

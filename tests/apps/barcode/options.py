@@ -295,7 +295,7 @@ class Options(ProgramTest):
                                         for _ in range(300)))
         exact = self.expect(0, "cloud.txt", "--max-dim", "0").stdout.splitlines()[1:]
         run = self.expect(0, "cloud.txt", "--approximate", "0.5", "--check", "-o", "out.json")
-        self.assertIn("of 44850 edges: births and deaths are at most 1.5 times too late", run.stderr)
+        self.assertIn("of 44850 edges: births and deaths are too late by a factor of at most 1.5", run.stderr)
         result = json.loads(self.read("out.json"))
         self.assertEqual(result["approximation"], 0.5)
         deaths = [b["death"] for b in result["bars"] if b["dim"] == 0]
@@ -330,7 +330,7 @@ class Options(ProgramTest):
         rows = [f"{random.random()} {random.random()}" for _ in range(40)]
         self.write("cloud.txt", "\n".join(rows) + "\n")
         runs = {}
-        for way, words in (("on", "collapse on (asked for)"), ("off", "collapse off (asked for)"),
+        for way, words in (("on", "collapse on (requested)"), ("off", "collapse off (requested)"),
                            ("auto", "% of a sample of the edges are dominated)")):
             options = ("cloud.txt", "--collapse", way, "--max-dim", "2", "--engine", "cohomology")
             runs[way] = self.expect(0, *options, "--check", "--verbose")
@@ -365,7 +365,7 @@ class Options(ProgramTest):
             self.assertIn(options[0], run.stderr, options)
         for options in (("--output-format", "json"), ("--field", "3"), ("--min-dim", "1")):
             self.assertRegex(self.expect(0, *dry, *options).stderr,
-                             f"nothing is done for {options[0]}.* except to estimate memory")
+                             f"--dry-run uses {options[0]}.* only to estimate memory")
         for options in ((), ("--min-persistence=-1",)):
             self.assertNotIn("-dry-run", self.expect(0, *dry, *options).stderr)
         self.write("row.npy", files.array((3,), [0, 2, 1]))
@@ -382,12 +382,12 @@ class Options(ProgramTest):
         tree = ("row.npy", "--plot", "t.svg", "--plot-kind", "tree")
         bars = ("--min-persistence", "5", "--max-dim", "0")
         run = self.expect(0, *tree, "--output-format", "none", *bars)
-        self.assertIn("nothing is done for --max-dim, --min-persistence: only the merge tree",
+        self.assertIn("--max-dim, --min-persistence: ignored, because only the merge tree",
                       run.stderr)
         for options in (bars, (*bars, "--output-format", "none", "--check"),
                         (*bars, "--output-format", "none", "--plot", "b.svg", "--plot-kind",
                          "diagram"), ("--output-format", "none")):
-            self.assertNotIn("nothing is done", self.expect(0, *tree, *options).stderr)
+            self.assertNotIn("ignored", self.expect(0, *tree, *options).stderr)
 
     def test_representatives_that_nobody_sees(self):
         for options in (("--output-format", "none"), ("--plot", "pics/")):

@@ -61,7 +61,7 @@ class Formats(ProgramTest):
         expected = [line for line in SQUARE_CSV.splitlines(keepends=True) if line[0] != "1"]
         run = self.expect(0, "square.txt", "--max-dim", "0", "--verbose")
         self.assertEqual(run.stdout, "".join(expected))
-        self.assertIn("engine union-find: only components are asked for; a spanning forest",
+        self.assertIn("engine union-find: only components are requested; a spanning forest",
                       run.stderr)
         run = self.expect(0, "square.txt", "--max-dim", "0", "--dry-run")
         self.assertIn("dimension 1: 3\n", run.stdout)

@@ -110,10 +110,10 @@ class Stored(ProgramTest):
                 (("plot", "bars.csv", "-o", "x.png", "--output-format", "csv"), "--plot x.png"),
                 (("plot", "bars.csv", "-o", "x.gif"), "--output: found 'x.gif'"),
                 (("plot", "bars.csv", "-o", "q.csv"), "expected FILE.svg or FILE.png"),
-                (("square.txt", "-o", "x.svg"), "--plot x.svg draws it"),
-                (("square.txt", "-o", "x.PNG"), "--plot x.PNG draws it"),
-                (("--compare", "bars.csv"), "--compare: expected two barcodes, found 1"),
-                (("--compare", *["bars.csv"] * 3), "--compare: expected two barcodes, found 3"),
+                (("square.txt", "-o", "x.svg"), "--plot x.svg draws the barcode"),
+                (("square.txt", "-o", "x.PNG"), "--plot x.PNG draws the barcode"),
+                (("--compare", "bars.csv"), "--compare: found 1, expected two barcodes"),
+                (("--compare", *["bars.csv"] * 3), "--compare: found 3, expected two barcodes"),
                 (("bars.csv", "--max-dim", "1"), "makes sense for a computation only")):
             self.assertIn(what, self.expect(64, *arguments).stderr)
         self.assertNotIn("--plot", self.expect(64, "plot", "bars.csv", "-o", "x.gif").stderr)
@@ -131,7 +131,7 @@ class Stored(ProgramTest):
         rows = [x for i in range(200_000) for x in (0, 0, 1 + i)]
         self.write("big.npy", files.array((200_000, 3), rows))
         run = self.expect(75, "plot", "big.npy", "-o", "x.svg", "--memory-limit", "1MiB")
-        self.assertIn("take fewer bars, or raise --memory-limit", run.stderr)
+        self.assertIn("use fewer bars, or raise --memory-limit", run.stderr)
         for option in ("--max-dim", "--subsample", "--threshold"):
             self.assertNotIn(option, run.stderr)
 
@@ -184,7 +184,7 @@ class Stored(ProgramTest):
                          [(0, 0.5), (1, 0.25), (2, None)])
         self.assertEqual(self.expect(0, *pair, "--output-format", "none").stdout, "")
         run = self.expect(0, *pair, "--output-format", "none", "-o", "x.csv")
-        self.assertIn("nothing is done for --output x.csv", run.stderr)
+        self.assertIn("--output-format none ignores --output x.csv", run.stderr)
         self.assertNotIn("x.csv", self.files())
         run = self.expect(64, *pair, "-o", "d.npy")
         self.assertIn("--output: found d.npy", run.stderr)

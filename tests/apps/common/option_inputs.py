@@ -36,7 +36,7 @@ from program import has_page  # noqa: E402
 
 CHANGES, OBEYED, REFUSED, SAID, SILENT = "changes", "obeyed", "refused", "said", "SILENT"
 VOLATILE = ("timings", "peak_memory", "stages", "table", "seconds")
-DOES_NOTHING = "does nothing|do nothing|nothing is done|not needed|is not used"
+DOES_NOTHING = "does nothing|do nothing|ignore[sd]|only to estimate|not needed|is not used"
 TIMES = r"; [0-9.]+ ms|[0-9.]+ s: .* CPU per frame"
 MEMORY = rb"(?m)^memory .*$"  # the forecast of a dry run depends on the heap of the process
 RUNS_AT_ONCE = 2

@@ -158,7 +158,7 @@ CALLS = [(room, text, expected, words) for room, rows in {
         ("c.points(max_dim=-2)", "USAGE", "max_dim: found -2"),
         ("c.points(max_dim=-2**31)", "USAGE", "max_dim"),
         ("c.points(min_dim=-1)", "USAGE", "lowest dimension: found -1"),
-        ("c.points(min_dim=2, max_dim=1)", "USAGE", "min_dim: found 2, expected at most max_dim, 1"),
+        ("c.points(min_dim=2, max_dim=1)", "USAGE", "min_dim: found 2, expected at most max_dim .1."),
         ("c.points(field=0)", "USAGE", "field: found 0, expected a prime below 2.31"), ("c.points(field=1)", "USAGE", "found 1"),
         ("c.points(field=4)", "USAGE", "found 4"), ("c.points(field=-3)", "USAGE", "found -3"),
         ("c.points(field=2**31)", "USAGE", "2147483648"), ("c.points(field=2**62)", "USAGE", "46116860184"),
@@ -207,7 +207,7 @@ CALLS = [(room, text, expected, words) for room, rows in {
         ("c.image(IMAGE * nan, masked=1)", "=", "0 bars"),
         ("c.image(construction=2)", "USAGE", "construction: found 2"),
         ("c.image(construction=-1)", "USAGE", "construction: found -1"),
-        ("c.image(min_dim=2, max_dim=1)", "USAGE", "min_dim: found 2, expected at most max_dim, 1"),
+        ("c.image(min_dim=2, max_dim=1)", "USAGE", "min_dim: found 2, expected at most max_dim .1."),
         ("c.image(field=6)", "USAGE", "found 6"), ("c.image(memory_limit=1)", "RESOURCE", "memory limit"),
     ],
     "many at a time": [

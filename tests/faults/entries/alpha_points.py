@@ -70,7 +70,7 @@ def entries():
              output=bars("0,0,1e+308", "0,0,inf"))
     yield of(74, "two points as near as doubles are", b"0 0\n5e-324 0\n", (), 0)
     yield of(74, "a point far from a cluster", b"0 0\n1e-300 0\n0 1e-300\n1e300 0\n", (), 65,
-             "point 1: found 1e-300 beside numbers about as large as 2.997")
+             "point 1: found 1e-300 in data with numbers as large as 2.997")
     yield of(74, "points that only their last bits tell apart",
              b"1 0\n1.0000000000000002 0\n1.0000000000000004 0\n", (), 0,
              output=bars("0,0,1.1102230246251565e-16", "0,0,1.1102230246251565e-16", "0,0,inf"))

@@ -125,7 +125,7 @@ def entries():
                     {"d.png": DEPTH, file: content})
     for name, content, code, message, named in (
             ("a frame that is missing", b"a.xyz\nmissing.xyz\n", 66, "cannot open", "missing.xyz"),
-            ("a name with NUL", b"a.xyz\0b.xyz\n", 65, "found a NUL after 'a.xyz'", "--frames-from"),
+            ("a name with NUL", b"a.xyz\0b.xyz\n", 65, "found a NUL byte after 'a.xyz'", "--frames-from"),
             ("a line that is no name", b"a" * 100_000 + b"\n", 65, "found a line of more than 65536 bytes", "--frames-from"),
             ("coordinates beyond single precision", b"far.xyz\n", 65, r"found 1e\+39, expected at most", "coordinate 2"),
             ("a name that would clear the screen", b"\x1b[2J.xyz\n", 66, "cannot open", "\\x1B[2J.xyz"),

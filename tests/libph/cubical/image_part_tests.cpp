@@ -169,12 +169,12 @@ TEST(ImagePart, RefusesWhatDoesNotBelongTogether) {
   refused(first, ImagePart(image, 1, 4), "other extents, types or options");
   refused(first, ImagePart(image, 1, 3, {.max_dim = 0}), "other extents, types or options");
   ImagePart of_image(image, 0, 3);
-  refused(of_image, ImagePart(other, 1, 3), "seams that differ");
+  refused(of_image, ImagePart(other, 1, 3), "layers that do not match");
   EXPECT_EQ(of_image.bytes(), ImagePart(image, 0, 3).bytes());
   const ImagePartOptions cells{.cubical = {.construction = CubicalOptions::Construction::cells}};
   ImagePart turned(image, 0, 3, cells);
   const auto before = turned.bytes();
-  refused(turned, ImagePart(other, 1, 3, cells), "seams that differ");
+  refused(turned, ImagePart(other, 1, 3, cells), "layers that do not match");
   EXPECT_EQ(turned.bytes(), before);
 }
 

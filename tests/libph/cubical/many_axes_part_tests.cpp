@@ -101,9 +101,10 @@ TEST(ManyAxesPart, SaysWhatCanBeHad) {
     expect_error(ErrorKind::usage, why,
                  [&] { ImagePart(random.image(std::move(extents), true), 0, 1, options); });
   };
-  refused({2, 2, 2, 2}, {},
-          "parts of an image of 4 axes: dimensions from 1 to 2 need all layers at once, found "
-          "a request for dimensions 0 to 3");
+  refused(
+      {2, 2, 2, 2}, {},
+      "parts of an image of 4 axes: found a request for dimensions 0 to 3, expected dimension 0 "
+      "alone, or 3 alone, because dimensions from 1 to 2 need all layers at once");
   refused({2, 2, 2, 2}, {.max_dim = 1},
           "found a request for dimensions 0 to 1, expected dimension 0 alone, or 3 alone");
   refused({2, 2, 2, 2}, {.min_dim = 2, .loops = true}, "expected dimension 0 alone, or 3 alone");

@@ -247,8 +247,8 @@ TEST(Estimates, SayWhetherEdgesAreCollapsed) {
       count_cells(RipsFiltration<RipsLayout::sparse, 1>(collapse_edges(all_edges(solid))), 2));
   EXPECT_LT(e.cells[1], static_cast<double>(all_edges(solid).edge_count()));
   says(ring, {.max_dim = 2, .engine = Engine::cohomology}, false, "% of a sample");
-  says(ring, {.max_dim = 2, .collapse = Collapse::on}, true, "asked for");
-  says(solid, {.max_dim = 2, .collapse = Collapse::off}, false, "asked for");
+  says(ring, {.max_dim = 2, .collapse = Collapse::on}, true, "requested");
+  says(solid, {.max_dim = 2, .collapse = Collapse::off}, false, "requested");
   says(solid, {}, false, "looks only at edges");
   says(solid, {.max_dim = 2, .engine = Engine::standard}, false, "reference engine");
   says(solid, {.max_dim = 2, .engine = Engine::cohomology, .min_persistence = -1}, false,

@@ -100,7 +100,7 @@ TEST(InfiniteBars, AreDroppedCappedOrRefused) {
   EXPECT_EQ(finite_bars(std::span(bars).subspan(1, 2), {Rule::refuse}).bars.size(), 2U);
   expect_error(ErrorKind::bad_data, "found a bar [0, inf)",
                [&] { finite_bars(few, {Rule::refuse}); });
-  expect_error(ErrorKind::bad_data, "a cap is for deaths", [&] {
+  expect_error(ErrorKind::bad_data, "a cap replaces only infinite deaths", [&] {
     finite_bars(bars, {Rule::cap, 9});
   });
   expect_error(ErrorKind::usage, "found -1, expected at least 0", [&] {

@@ -65,16 +65,18 @@ Folded fold_points(PointsView points, std::span<const double> weights,
     box.size = std::hypot(box.size, period[axis] > 0 ? period[axis] : extent.size());
   }
   if (!std::isfinite(box.size))
-    throw Error(ErrorKind::bad_data, "alpha complex: found a box larger than doubles can hold");
+    throw Error(ErrorKind::bad_data,
+                "alpha complex: found data whose extent exceeds the largest double");
   const double unit = unit_of(box.size);
   for (std::size_t axis = 0; axis < axes; ++axis) {
     if (period[axis] == 0) continue;
     const double length = box.period[axis] = rounded(period[axis], unit);  // mutant: alpha-period
     if (length == 0)
-      throw Error(ErrorKind::bad_data,
-                  fmt::format("period of axis {}: found {:g} in a box of size {:g}, expected a "
-                              "period that is not rounded to 0",
-                              axis, period[axis], box.size));
+      throw Error(
+          ErrorKind::bad_data,
+          fmt::format("period of axis {}: found {:g}, which is too small beside the extent of the "
+                      "data ({:g}) and would be rounded to 0; expected a larger period",
+                      axis, period[axis], box.size));
     for (Index i = 0; i < points.rows(); ++i) {
       double& x = folded.points(i, static_cast<Index>(axis));
       if (!std::isfinite(x)) continue;

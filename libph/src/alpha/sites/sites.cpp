@@ -61,8 +61,8 @@ double scaled(double x, int exponent, Index point) {
   const double result = times_power_of_two(x, -exponent) + 0.0;  // the sum turns -0 into 0
   if (times_power_of_two(result, exponent) != x)                 // mutant: alpha-bits-lost
     throw Error(ErrorKind::bad_data,
-                fmt::format("point {}: found {:g} beside numbers about as large as 2^{}, expected "
-                            "magnitudes that doubles can square",
+                fmt::format("point {}: found {:g} in data with numbers as large as 2^{}, expected "
+                            "numbers of closer magnitudes",
                             point, x, exponent));
   return result;
 }

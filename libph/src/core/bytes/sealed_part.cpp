@@ -73,7 +73,7 @@ std::string_view kind_of_part(std::span<const std::byte> bytes) {
 std::span<const std::byte> content_of_part(std::span<const std::byte> bytes,
                                            std::string_view kind) {
   if (const std::string_view found = kind_of_part(bytes); found != kind)
-    refuse(fmt::format("found one of kind '{}', expected '{}'", found, kind));
+    refuse(fmt::format("found kind '{}', expected kind '{}'", found, kind));
   return bytes.subspan(kHeaderSize, bytes.size() - kHeaderSize - kChecksumSize);
 }
 

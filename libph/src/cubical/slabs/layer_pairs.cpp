@@ -84,8 +84,8 @@ void LayerPairs::check_seams(const LayerPairs& others, bool come_before) const {
   };
   if (!agree(vertices, others.vertices) || !agree(tops, others.tops))
     throw Error(ErrorKind::bad_data,
-                "parts of an image: found seams that differ, expected layers that follow each "
-                "other");
+                "parts of an image: found layers that do not match where parts meet, expected "
+                "parts of one image");
 }
 
 void LayerPairs::join(LayerPairs others, bool come_before, PairSink& pairs, FreeCellSink* free) {

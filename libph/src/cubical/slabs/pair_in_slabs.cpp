@@ -20,8 +20,8 @@ namespace {
               std::string("bars of dimension 1: their critical cells exceed the memory "
                           "limit; ") +
                   (wants_loops(shape, {.min_dim = 2, .max_dim = 2})
-                       ? "bars of dimension 0 take less (max_dim 0)"
-                       : "all other dimensions take less (max_dim 0, or min_dim 2)"));
+                       ? "bars of dimension 0 need less memory (max_dim 0)"
+                       : "all other dimensions need less memory (max_dim 0, or min_dim 2)"));
 }
 
 /// Runs a task that stores the critical cells of loops. If memory runs out, the error message

@@ -24,8 +24,10 @@ using cubical::WholeImage;
 WholeImage whole_image(const Image& image, int parts, const ImagePartOptions& options) {
   const std::size_t axes = image.extents.size();
   if (!options.cubical.periodic.empty() && options.cubical.periodic.size() > axes)
-    throw Error(ErrorKind::usage, fmt::format("periodic axes: found {}, the image has {} axes",
-                                              options.cubical.periodic.size(), axes));
+    throw Error(
+        ErrorKind::usage,
+        fmt::format("periodic axes: found {}, expected at most {}, the number of axes of the image",
+                    options.cubical.periodic.size(), axes));
   std::vector<bool> periodic = options.cubical.periodic;
   periodic.resize(axes, false);
   return {image.extents,
@@ -122,8 +124,8 @@ WholeImage cubical::checked_whole(const Image& image, int parts, const ImagePart
   const int highest = std::min(whole.max_dim, top - 1);
   if (whole.loops && !(options.loops && top == 3))
     throw Error(ErrorKind::usage,
-                fmt::format("parts of {}: {} need all layers at once, found a request for {}, "
-                            "expected dimension 0 alone{}",
+                fmt::format("parts of {0}: found a request for {2}, expected dimension 0 alone{3}, "
+                            "because {1} need all layers at once",
                             top == 3 ? "a volume" : fmt::format("an image of {} axes", top),
                             top == 3 ? "loops" : fmt::format("dimensions from 1 to {}", top - 2),
                             whole.min_dim == highest

@@ -182,7 +182,8 @@ class Reader {
       } else if (name == "version") {
         json_.integer(1, 1, "version");
       } else if (name == "representatives") {
-        if (bars) json_.fail(place, {"representatives", "it after the bars", "it before them", {}});
+        if (bars)
+          json_.fail(place, {"representatives", "them after the bars", "them before the bars", {}});
         representatives_ = representatives();
       } else if (name == "bars") {
         if (bars) json_.fail(place, {"bars", "a second list", "one", {}});

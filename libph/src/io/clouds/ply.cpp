@@ -73,7 +73,7 @@ void PlyBody::scalar(FieldType type, std::byte* to) {
     } else {
       if (!cells_.more()) {
         lines_.fail(lines_.line().data() + lines_.line().size(),
-                    {"line too short", "its end", "a number for each property", {}});
+                    {"line too short", "the end of the line", "a number for each property", {}});
       }
       if constexpr (std::is_floating_point_v<T>) {
         value = cells_.floating<T>(Allow::any);

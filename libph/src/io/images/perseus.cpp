@@ -61,15 +61,15 @@ void take_missing_cubes(std::vector<double>& values, const ReadOptions& options)
     return v == -1 || std::isnan(v) || (v > 0 && v == std::floor(v));
   });
   if (perseus) std::ranges::replace(values, -1.0, kAbsent);
-  detail::note(options,
-               perseus
-                   ? fmt::format("{} of value -1 never enter{}, as in Perseus (all other values "
-                                 "are positive integers)",
-                                 count == 1 ? "1 cube" : fmt::format("{} cubes", count),
-                                 count == 1 ? "s" : "")
-                   : fmt::format("{} -1 and taken as such; write inf for a "
-                                 "cube that never enters",
-                                 count == 1 ? "1 value is" : fmt::format("{} values are", count)));
+  detail::note(
+      options,
+      perseus
+          ? fmt::format("{} of value -1 never enter{}, as in Perseus (all other values "
+                        "are positive integers)",
+                        count == 1 ? "1 cube" : fmt::format("{} cubes", count),
+                        count == 1 ? "s" : "")
+          : fmt::format("{} -1, which is read as a number; write inf for a cube that never enters",
+                        count == 1 ? "1 value is" : fmt::format("{} values are", count)));
 }
 
 // Reads sizes, then values, with the first axis fastest.

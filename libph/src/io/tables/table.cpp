@@ -257,7 +257,7 @@ bool leads_with_names(const Input& input, TableLayout& layout, std::string_view 
     return true;
   }
   if (is_index)
-    layout.notes.push_back(fmt::format("the first column{} is taken as numbers; {} leaves it out",
+    layout.notes.push_back(fmt::format("the first column{} is read as numbers; {} leaves it out",
                                        name,
                                        mark(Setting::columns, fmt::format("2-{}", layout.width))));
   return false;

@@ -137,8 +137,8 @@ def _distances(X: Any, limit: float, metric: Any, metric_params: Mapping[str, An
         from sklearn.metrics import pairwise_distances
         from sklearn.neighbors import NearestNeighbors
     except ImportError:
-        raise NotBuiltIn("ripser_parallel: distances of points come from scikit-learn, which is "
-                         "not installed; metric='precomputed' takes distances, ph.rips points"
+        raise NotBuiltIn("ripser_parallel: distances between points need scikit-learn, which is "
+                         "not installed; metric='precomputed' takes distances, ph.rips takes points"
                          ) from None
     if limit == np.inf:
         return pairwise_distances(X, metric=metric, **metric_params)

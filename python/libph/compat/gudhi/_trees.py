@@ -290,7 +290,7 @@ def _space(points: Any, distances: Any, name: str, limit: float
     if not hasattr(distances, "__len__") or len(distances) == 0:
         return _arrays.as_points(points, "points"), options
     if hasattr(points, "__len__") and len(points):
-        raise UsageError("points: exclude distance_matrix")
+        raise UsageError("points: cannot be combined with distance_matrix; leave out one of them")
     options["metric"] = "precomputed"
     return _square(distances), options
 

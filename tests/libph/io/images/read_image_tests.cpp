@@ -96,7 +96,7 @@ TEST(ReadPerseus, MinusOneIsMissingWherePerseusWouldReadIt) {
   EXPECT_EQ(values("1\n3\n1 -1 2\n", &note), (std::vector<double>{1, kMark, 2}));
   EXPECT_TRUE(contains(note, "never enter")) << note;
   EXPECT_EQ(values("1\n3\n0 -1 2\n", &note), (std::vector<double>{0, -1, 2}));
-  EXPECT_TRUE(contains(note, "taken as such")) << note;
+  EXPECT_TRUE(contains(note, "-1, which is read as a number")) << note;
   EXPECT_EQ(values("1\n3\n1.5 -1 2\n"), (std::vector<double>{1.5, -1, 2}));
   EXPECT_EQ(values("1\n3\n-2 -1 2\n"), (std::vector<double>{-2, -1, 2}));
   EXPECT_EQ(values("1\n3\n0.5 inf -inf\n"), (std::vector<double>{0.5, kMark, -kInf}));

@@ -55,7 +55,7 @@ struct UnionFindEngine {
   }
   template <Filtration F>
   static Suitability suitability(const F&, const Task&) {
-    return {5, "only components are asked for"};
+    return {5, "only components are requested"};
   }
   static constexpr int listed_dim(int) { return 1; }
   static constexpr bool goes_by_edges = true;

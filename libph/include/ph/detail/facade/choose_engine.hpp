@@ -35,7 +35,7 @@ EngineChoice<F> choose_engine(const F& f, Engine asked, const Task& task) {
     if (asked != Engine::automatic && engine.id != asked) continue;
     if (!engine.can_run(f, task)) continue;
     const Suitability suits =
-        asked == Engine::automatic ? engine.suitability(f, task) : Suitability{1, "asked for"};
+        asked == Engine::automatic ? engine.suitability(f, task) : Suitability{1, "requested"};
     if (suits.rank <= rank) continue;
     rank = suits.rank;
     choice = {&engine, suits.reason};
