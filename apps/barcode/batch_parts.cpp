@@ -31,7 +31,9 @@ void require_batch_options(const Job& job) {
     if (std::ranges::find(kOfOne, std::string_view(typed).substr(2)) != kOfOne.end())
       throw Error(
           ErrorKind::usage,
-          fmt::format("{}: found with --part of several inputs, whose result is one table", typed));
+          fmt::format(
+              "{}: cannot be combined with --part of several inputs, whose result is one table",
+              typed));
   }
 }
 

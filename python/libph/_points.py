@@ -224,7 +224,7 @@ def root_mean_square(distances: NDArray[np.float64]) -> NDArray[np.float64]:
 def _complete(X: Any, metric: Any, minkowski_p: Any) -> _core.MetricSpace:
     space = source_of(X, metric=metric, minkowski_p=minkowski_p, has_nan_option=False).space
     if not space.is_complete:
-        raise UsageError("X: found some of the distances (a sparse matrix), expected all")
+        raise UsageError("X: found only some of the distances (a sparse matrix), expected all")
     return space
 
 

@@ -42,7 +42,8 @@ class Report:
     title: str
 
     def __init__(self) -> None:
-        raise TypeError("a Report is made by ph.report, Barcode.report and Segmentation.report")
+        raise TypeError("a Report cannot be constructed directly; ph.report, Barcode.report and "
+                        "Segmentation.report return one")
 
     @classmethod
     def _of(cls, page: bytes, title: str) -> Report:

@@ -176,7 +176,7 @@ def rips_request(o: dict[str, Any]) -> Request:
         if births is not None or neighbours is not None:
             raise UsageError(f"{name}: cannot be combined with weights; leave out one of them")
         if not source.space.is_complete:
-            raise UsageError(f"{name}: needs all distances, found some of them")
+            raise UsageError(f"{name}: needs all distances, found only some of them")
     task = _task_of(o, _loops_of(o, "tight"))
     keywords = {**o, "threshold": threshold, "dtm_neighbours": neighbours,
                 "weight_exponent": exponent, "approximation": approximation,
@@ -216,7 +216,7 @@ def _weights(o: dict[str, Any], source: Source
             raise UsageError("dtm_neighbors: found none, expected the number of neighbours for "
                              "weights='dtm'")
         if not source.space.is_complete:
-            raise UsageError("weights: 'dtm' needs all distances, found some of them")
+            raise UsageError("weights: 'dtm' needs all distances, found only some of them")
         neighbours = _options.whole("dtm_neighbors", neighbours, 1, max(1, source.space.size))
     elif neighbours is not None:
         raise UsageError("dtm_neighbors: does nothing without weights='dtm'")

@@ -14,10 +14,11 @@ namespace ph::barcode {
 CloudInput read_cloud_input(const std::string& input, const Job& job, app::Session& session) {
   const std::string_view why = job.sharing.part ? "--part" : "several ranks";
   if (job.question.options.max_dim != 0)
-    throw Error(ErrorKind::usage,
-                fmt::format("{} with --complex rips: only components are computed, expected "
-                            "--max-dim 0",
-                            why));
+    throw Error(
+        ErrorKind::usage,
+        fmt::format(
+            "{} with --complex rips: expected --max-dim 0, because only components are computed",
+            why));
   if (job.question.rips.distance != PointDistance::euclidean)
     throw Error(ErrorKind::usage,
                 fmt::format("--metric: found another metric, expected euclidean with {}", why));

@@ -188,7 +188,7 @@ void check_together(const Arguments& a) {
   std::vector<int> dims = a.dims;
   std::ranges::sort(dims);
   if (const auto twice = std::ranges::adjacent_find(dims); twice != dims.end())
-    reject(fmt::format("--dims: found {} twice", *twice));
+    reject(fmt::format("--dims: found {} twice, expected each dimension once", *twice));
   app::require_in_scope(a.given, situation_of(a.distance.kind),
                         fmt::format("--distance {}", a.distance.name()));
   if (!a.matching.empty())

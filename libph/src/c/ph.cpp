@@ -101,9 +101,10 @@ ph_options complete(const ph_options* given) {
   ph_options_init(&options);
   if (given == nullptr) return options;
   if (given->size < sizeof(given->size) || given->size > sizeof(options))
-    throw Error(ErrorKind::usage,
-                fmt::format("ph_options: found size {}, expected {} to {}: call ph_options_init",
-                            given->size, sizeof(given->size), sizeof(options)));
+    throw Error(
+        ErrorKind::usage,
+        fmt::format("ph_options: found size {}, expected {} to {}; call ph_options_init first",
+                    given->size, sizeof(given->size), sizeof(options)));
   std::memcpy(&options, given, given->size);
   return options;
 }

@@ -19,8 +19,7 @@ void check_bar(const Bar& bar, std::string_view function) {
     if (std::isfinite(end) && std::abs(end) > kLargest)
       throw Error(
           ErrorKind::bad_data,
-          fmt::format("{}: found {}, expected at most {} in absolute value: choose a larger "
-                      "unit",
+          fmt::format("{}: found {}, expected at most {} in absolute value; choose a larger unit",
                       mark_place(function), end, kLargest));
 }
 

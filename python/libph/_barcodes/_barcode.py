@@ -78,7 +78,8 @@ class Barcode(Cells, Summaries, Sequence[Bar]):
     meta: Mapping[str, Any]
 
     def __init__(self) -> None:
-        raise TypeError("a Barcode is made by ph.rips, ph.cubical and the like, and ph.read_barcode")
+        raise TypeError("a Barcode cannot be constructed directly; ph.rips, ph.cubical and the "
+                        "like, and ph.read_barcode return one")
 
     @classmethod
     def _of(cls, bars: _core.Bars, meta: Mapping[str, Any]) -> Barcode:

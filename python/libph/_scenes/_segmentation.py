@@ -93,7 +93,7 @@ class Segmentation:
     meta: Mapping[str, Any]
 
     def __init__(self) -> None:
-        raise TypeError("a Segmentation is made by ph.segment")
+        raise TypeError("a Segmentation cannot be constructed directly; ph.segment returns one")
 
     @classmethod
     def _of(cls, found: _core.Segmentation, name: str, notes: Sequence[str],

@@ -184,7 +184,7 @@ class SparseDistances(Distances):
         return self._values[at]
 
     def rows(self, i: Integers) -> Numbers:
-        raise UsageError("X: found some of the distances (a sparse matrix), expected all")
+        raise UsageError("X: found only some of the distances (a sparse matrix), expected all")
 
     def add(self, i: Integers, j: Integers, factors: Numbers) -> None:
         np.add.at(self._gradient, self._find(i, j)[0], factors)

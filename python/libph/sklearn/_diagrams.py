@@ -108,7 +108,7 @@ def _of_giotto(X: Any) -> Samples:
     dims = np.unique(numbers[:, :, 2])
     if len(array) and not len(dims):
         raise UsageError(f"X: found an array of shape {array.shape}, expected at least one bar of "
-                         "each dimension; one of length 0 stands for none")
+                         "each dimension; a bar of length 0 stands for no bar")
     if not (dims == np.floor(dims)).all() or (dims < 0).any():
         raise UsageError(f"X: found dimensions {dims}, expected whole numbers from 0 on")
     # Bars of length 0 are padding.

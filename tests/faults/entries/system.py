@@ -199,7 +199,7 @@ def inputs():
                       message="stream of NUL bytes", named="<stdin>", program=program,
                       around=from_device("/dev/zero"))
         yield refused(53, f"{program}: /dev/urandom", "/dev/urandom", "--memory-limit", "32MiB",
-                      code=75, message="longer than the memory limit", named="/dev/urandom",
+                      code=75, message="larger than the memory limit", named="/dev/urandom",
                       program=program, around=with_device("/dev/urandom"))
         yield refused(52, f"{program}: faulty standard input", "-", code=65, message=":2:3: not a num",
                       named="<stdin>", program=program, around=with_stdin(b"0 0 1\n1 x 1\n"))

@@ -170,7 +170,7 @@ TEST(BetaSkeleton, Refuses) {
   refused("points", distances);
   expect_error(ErrorKind::usage, "of distances", [&] { distances.graph(RipsForm::points); });
   const Rips rips(points);
-  refused("H0 and H1", rips, {.max_dim = 2});
+  refused("dimensions 0 and 1 only", rips, {.max_dim = 2});
   refused("bars of positive length", rips, {.min_persistence = -1});
   refused("bars without representatives", rips, {.representatives = Representatives::cycles});
   refused("a task without an edge collapse", rips, {.collapse = Collapse::on});
@@ -210,7 +210,7 @@ TEST(BetaSkeleton, IsChosenWhereItPays) {
   EXPECT_FALSE(by_points(Points(100, 2), {}, task));
   EXPECT_TRUE(by_points(Points(100, 2), {}, {.engine = Engine::beta_skeleton}));
   EXPECT_FALSE(by_points(many, {}, {.engine = Engine::edge_links}));
-  expect_error(ErrorKind::usage, "H0 and H1",
+  expect_error(ErrorKind::usage, "dimensions 0 and 1 only",
                [&] { by_points(many, {}, {.max_dim = 2, .engine = Engine::beta_skeleton}); });
 }
 

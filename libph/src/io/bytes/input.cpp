@@ -242,7 +242,7 @@ Input Input::open(const std::filesystem::path& whole_path, const RunContext* con
       if (more > limit - std::min(limit, storage->capacity)) {
         throw Error(
             ErrorKind::resource,
-            fmt::format("{}: longer than the memory limit allows: {} were read",
+            fmt::format("{}: larger than the memory limit allows: {} were read",
                         mark_place(input.name_), format_size(static_cast<double>(storage->used))));
       }
       storage->grow_to(more);

@@ -145,7 +145,7 @@ void YamlWords::take_value(Value& value, std::string_view rest, std::size_t colu
     return;
   }
   if (rest.front() == '&' || rest.front() == '*')
-    fail(column, {"anchor or alias", quoted(trimmed(rest)), "a value", "write it out"});
+    fail(column, {"anchor or alias", quoted(trimmed(rest)), "a value", "write the value itself"});
   value.words.push_back({unquoted(trimmed(rest)), number_, column});
 }
 

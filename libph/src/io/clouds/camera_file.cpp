@@ -174,7 +174,7 @@ class CameraYaml {
             named == nullptr ? fmt::format("none, and {} coefficients", d.size())
                              : '"' + printable(name, 40) + '"',
             "plumb_bob, rational_polynomial or equidistant",
-            "rectify the image, and take a camera without distortion"});
+            "rectify the image, and use a camera without distortion"});
     }
     // OpenCV writes up to 14 coefficients. The last coefficients are for thin prisms and tilted
     // sensors, which most lenses do not have.

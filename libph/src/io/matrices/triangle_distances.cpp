@@ -81,7 +81,7 @@ DistanceMatrix read_lower_rows(TextLines& lines, TextEntries& entries, std::vect
   if (are_zero && n > 3)
     detail::note(options,
                  "each row ends in 0, which means equal points; if these zeros are the diagonal, "
-                 "leave them and the first row out");
+                 "leave out the zeros and the first row");
   return DistanceMatrix(static_cast<Index>(n), std::move(values));
 }
 

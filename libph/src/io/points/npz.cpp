@@ -155,7 +155,7 @@ Input read_npz_member(const Input& input) {
   const Member& member = chosen(input, members);
   const std::string name = fmt::format("{}:{}", input.name(), printable(member.array(), 200));
   if ((member.flags & 1U) != 0) {
-    input.fail_at_byte(member.header_at, {"an encrypted member", name, "one that is not", {}});
+    input.fail_at_byte(member.header_at, {"an encrypted member", name, "an unencrypted one", {}});
   }
   if (member.local_at > input.size()) {
     input.fail_at_byte(member.header_at, {"damaged archive: offset of a member",

@@ -35,7 +35,7 @@ double edges_of_a_point(PointsView points, double threshold) {
 }  // namespace
 
 std::string_view BetaSkeletonEngine::obstacle(const Task& task) {
-  if (task.max_dim > 1) return "H0 and H1";
+  if (task.max_dim > 1) return "dimensions 0 and 1 only";
   if (task.representatives != Representatives::none) return "bars without representatives";
   if (task.zero_length) return "bars of positive length";
   if (task.collapses) return "a task without an edge collapse";
