@@ -22,13 +22,17 @@ constexpr double kSide = 0.05;  // the side of a square of a plane, in metres
 constexpr double kReach = 0.1;
 // Points nearer to the plane than this number of margins may belong to the plane itself.
 constexpr double kMargins = 2;
+constexpr double kLeastTable = 0.2;  // square metres
 
 /// The squares of a plane in which the points of a sample are.
 struct Squared {
-  std::set<Square> on;         ///< the squares in which the plane itself is seen
-  std::size_t points_on = 0;   ///< the number of points there
-  std::set<Square> in_front;   ///< the squares in which something is up to kReach in front
-  std::vector<Square> behind;  ///< for each point up to kReach behind the plane, its square
+  std::set<Square> on;        ///< the squares in which the plane itself is seen
+  std::size_t points_on = 0;  ///< the number of points there
+  std::set<Square> in_front;  ///< the squares in which something is up to kReach in front
+  /// For each point up to kReach behind the plane, its square and its distance from the plane.
+  std::vector<std::pair<Square, double>> behind;
+
+  double area() const { return static_cast<double>(on.size()) * kSide * kSide; }
 };
 
 Squared squared(const Plane& plane, const Sample& sample) {
@@ -44,30 +48,29 @@ Squared squared(const Plane& plane, const Sample& sample) {
       if (height > 0)
         result.in_front.insert(squares.of(sample[i]));
       else
-        result.behind.push_back(squares.of(sample[i]));
+        result.behind.emplace_back(squares.of(sample[i]), -height);
     }
   }
   return result;
 }
 
 /// True if the plane is a face of something: the surface goes on just behind the plane, where the
-/// plane itself is seen. Behind a table, there is only its edge.
+/// plane itself is seen. Behind a table, only the edge of its board is seen.
 bool goes_on_behind(const Squared& plane) {
-  // A share of the points on the plane. The edge of a board of 3 cm has 0.05, faces of boxes have
-  // 0.11 and more.
+  // A share of the points on the plane. Edges of books and of boards up to 3 cm have 0.05, faces of
+  // boxes have 0.11 and more.
   constexpr double most = 0.08;
-  const auto below =
-      std::ranges::count_if(plane.behind, [&](const Square& s) { return plane.on.contains(s); });
+  constexpr double thickest_board = 0.05;  // metres
+  const double least = plane.area() < kLeastTable ? 0 : thickest_board;
+  const auto below = std::ranges::count_if(plane.behind, [&](const auto& point) {
+    return point.second > least && plane.on.contains(point.first);
+  });
   return static_cast<double>(below) > most * static_cast<double>(plane.points_on);
 }
 
-/// True if the plane is the visible side of a single object: nothing is in front of it, and it is
-/// smaller than a table.
-bool is_alone(const Squared& plane) {
-  constexpr double least_table = 0.2;  // square metres
-  return plane.in_front.empty() &&
-         static_cast<double>(plane.on.size()) * kSide * kSide < least_table;
-}
+/// True if the plane is the visible side of a single object: it is smaller than a table, and
+/// nothing is in front of it.
+bool is_alone(const Squared& plane) { return plane.in_front.empty() && plane.area() < kLeastTable; }
 
 /// The first and the last square of each row or column in which the plane is seen.
 class Extents {

@@ -228,6 +228,93 @@ TEST(Surfaces, WhatIsCutOffAndStandsOnNothingIsAnObject) {
   EXPECT_EQ(segment(4).on, StandsOn());
 }
 
+// ---- which plane is the support
+
+TEST(Support, IsNotTheLargerWallBehindIt) {
+  const Block table{{-0.4, -0.45, -0.02}, {0.4, 0.25, 0}}, wall{{-2, 0.25, -0.5}, {2, 0.27, 2}};
+  const Room room({table, kLeft, kRight, wall});
+  const Segmentation s = room.segmented();
+  ASSERT_TRUE(s.tree.plane);
+  EXPECT_LT(s.tree.plane->share, 0.5) << "the wall has more points";
+  expect_direction(s.tree.plane->normal, {0, 0, 1});
+  EXPECT_EQ(s.cut.segments.size(), 2U);
+  EXPECT_GT(room.share_on(s, 3, 2), 0.9);
+}
+
+TEST(Support, IsNotASideOfAnObject) {
+  const Block box{{-0.15, -0.1, -0.2}, {0.15, 0.2, 0.1}};
+  const Room room({box});
+  const Segmentation s = room.segmented();
+  EXPECT_FALSE(s.tree.plane);
+  EXPECT_NE(s.plane_note.find("goes on behind"), std::string::npos) << s.plane_note;
+  EXPECT_EQ(s.cut.segments.size(), 1U);
+  EXPECT_EQ(s.cut.segments[0].role, Role::object);
+}
+
+TEST(Support, IsNotACardInTheAir) {
+  const Block card{{-0.1, -0.1, 0}, {0.1, 0.1, 0.002}};
+  const Segmentation alone = Room({card}).segmented();
+  EXPECT_FALSE(alone.tree.plane);
+  EXPECT_NE(alone.plane_note.find("nothing is on it"), std::string::npos) << alone.plane_note;
+  EXPECT_EQ(alone.cut.segments.size(), 1U);
+  // A larger plane is an empty table.
+  EXPECT_TRUE(Room({kTable}).segmented().tree.plane);
+  // A small tray with something in its middle is a support.
+  const Block tray{{-0.2, -0.2, -0.01}, {0.2, 0.2, 0}}, cube{{-0.03, -0.03, 0}, {0.03, 0.03, 0.06}};
+  const Segmentation with_cube = Room({tray, cube}).segmented();
+  EXPECT_TRUE(with_cube.tree.plane);
+  EXPECT_EQ(with_cube.cut.segments.size(), 1U);
+}
+
+// ---- containers
+
+/// A bin without a lid: its floor, and then its four walls, the right wall last.
+std::vector<Block> bin() {
+  constexpr double w = 0.26, d = 0.2, high = 0.12, thick = 0.01;
+  return {{{-w, -d, 0}, {w, d, thick}},
+          {{-w, d - thick, 0}, {w, d, high}},
+          {{-w, -d, 0}, {w, -d + thick, high}},
+          {{-w, -d, 0}, {-w + thick, d, high}},
+          {{w - thick, -d, 0}, {w, d, high}}};
+}
+
+TEST(Containers, ABinIsOneSegment) {
+  std::vector<Block> blocks{kTable};
+  for (const Block& part : bin()) blocks.push_back(part);
+  blocks.push_back({{-0.18, -0.02, 0.01}, {-0.1, 0.06, 0.07}});
+  blocks.push_back({{-0.04, 0.02, 0.01}, {0.04, 0.1, 0.07}});
+  blocks.push_back({{0.1, -0.04, 0.01}, {0.18, 0.04, 0.07}});
+  const Room room(blocks);
+  const Segmentation s = room.segmented();
+  const std::uint32_t container = room.label_of(s, 1);
+  ASSERT_NE(container, 0U);
+  EXPECT_EQ(s.cut.segments[container - 1].role, Role::container);
+  for (const int wall : {2, 4, 5}) EXPECT_EQ(room.label_of(s, wall), container) << wall;
+  for (const int thing : {6, 7, 8}) {
+    const std::uint32_t label = room.label_of(s, thing);
+    ASSERT_NE(label, 0U);
+    EXPECT_NE(label, container);
+    EXPECT_EQ(s.cut.segments[label - 1].role, Role::object);
+    EXPECT_EQ(s.cut.segments[label - 1].on, (StandsOn{0, container}));
+  }
+  EXPECT_EQ(s.cut.segments[container - 1].on, (StandsOn{1, 0}));
+  EXPECT_EQ(cut(s.tree, s.tree.first_cut).segments, s.cut.segments);
+}
+
+TEST(Containers, TwoThingsAreTooFewAndABoxBelowThreeIsNone) {
+  std::vector<Block> blocks{kTable};
+  for (const Block& part : bin()) blocks.push_back(part);
+  blocks.push_back({{-0.18, -0.02, 0.01}, {-0.1, 0.06, 0.07}});
+  blocks.push_back({{0.1, -0.04, 0.01}, {0.18, 0.04, 0.07}});
+  const Block box{{-0.25, 0, 0}, {0.25, 0.2, 0.1}};
+  std::vector<Block> on_box{kTable, box};
+  for (const double x : {-0.15, 0.0, 0.15})
+    on_box.push_back({{x - 0.03, 0.05, 0.1}, {x + 0.03, 0.12, 0.16}});
+  for (const auto& scene : {blocks, on_box})
+    for (const Segment& segment : Room(scene).segmented().cut.segments)
+      EXPECT_EQ(segment.role, Role::object);
+}
+
 // ---- from frame to frame
 
 TEST(PlaneGuess, IsTakenWhileThePointsAgree) {
