@@ -65,9 +65,7 @@ SceneCut cut_into(const SceneTree& scene, const Components& components, const Su
   SceneCut result = extract_components(scene, components.of, options.min_size);
   find_neighbours(scene.merge_tree, contacts_of(scene, surface, options, result, context), result);
   find_what_it_stands_on(scene, surface.pairs, result);
-  for (const Index vertex : components.containers)
-    if (const std::uint32_t label = result.vertex_labels[static_cast<std::size_t>(vertex)])
-      result.segments[label - 1].role = Role::container;
+  set_containers(components.containers, result);
   return result;
 }
 

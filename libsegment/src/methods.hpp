@@ -6,6 +6,7 @@
 
 #include "libsegment/src/objects/objects.hpp"
 #include "libsegment/src/plane/plane.hpp"
+#include "libsegment/src/supports/containers.hpp"
 #include "libsegment/src/supports/stages.hpp"
 #include "libsegment/src/voxels/voxel_grid.hpp"
 #include "ph/detail/complex/filtered_graph.hpp"
@@ -67,8 +68,8 @@ VoxelFiltration rips_filtration(const Scene& scene, const SegmentOptions& option
 
 /// The components that a cut leaves, including small components.
 struct Components {
-  std::vector<Index> of;               ///< for each vertex, one of the vertices of its component
-  std::vector<Index> containers = {};  ///< one vertex of each component that is a container
+  std::vector<Index> of;  ///< for each vertex, one of the vertices of its component
+  std::vector<Container> containers = {};
 };
 
 /// The components of a cut. The method, the voxel and the tree are read from `scene`.

@@ -67,8 +67,7 @@ class Containers {
     std::vector<std::vector<Eigen::Vector3d>> places(things_.size());
     for (std::size_t v = 0; v < objects.of.size(); ++v) {
       if (objects.of[v] == Parts::kSmall) continue;
-      Thing& thing = things_[objects.of[v]];
-      thing.voxels.push_back(static_cast<Index>(v));
+      things_[objects.of[v]].voxels.push_back(static_cast<Index>(v));
       places[objects.of[v]].emplace_back(
           turn * as_matrix(scene.vertices).row(static_cast<Index>(v)).transpose());
     }
@@ -79,38 +78,47 @@ class Containers {
     }
   }
 
-  /// The objects that are a container together, floor first. Empty if the object is no floor.
-  std::vector<std::size_t> container_of(std::size_t floor) const {
+  /// The numbers of the objects that are one container, floor first, and of the objects in it.
+  struct Found {
+    std::vector<std::size_t> parts, objects;
+  };
+  /// The container with this floor. Empty if the object is no floor.
+  std::optional<Found> container_on(std::size_t floor) const {
     constexpr std::size_t fewest = 3;
-    std::vector<std::size_t> parts{floor};
+    Found found{{floor}, {}};
     Outline plan = things_[floor].plan;
     double top = things_[floor].top;
     for (std::size_t w = 0; w < things_.size(); ++w) {
       if (w == floor || !is_wall_of(w, floor)) continue;
-      parts.push_back(w);
+      found.parts.push_back(w);
       plan.insert(plan.end(), things_[w].plan.begin(), things_[w].plan.end());
       top = std::max(top, things_[w].top);
     }
     const Outline hull = hull_of(std::move(plan));
-    const auto is_held = [&](std::size_t k) {
+    for (std::size_t k = 0; k < things_.size(); ++k) {
       const Eigen::Vector3d& middle = things_[k].middle;
-      return std::ranges::find(parts, k) == parts.end() && middle.z() > things_[floor].bottom &&
-             middle.z() < top && is_inside(hull, middle.head<2>());
-    };
-    std::size_t held = 0;
-    for (std::size_t k = 0; k < things_.size(); ++k) held += is_held(k) ? 1U : 0U;
-    if (held < fewest) parts.clear();
-    return parts;
+      if (std::ranges::find(found.parts, k) == found.parts.end() &&
+          middle.z() > things_[floor].bottom && middle.z() < top &&
+          is_inside(hull, middle.head<2>()))
+        found.objects.push_back(k);
+    }
+    return found.objects.size() < fewest ? std::nullopt : std::optional(std::move(found));
   }
+  /// True if two objects touch.
   bool touch(std::size_t a, std::size_t b) const {
     constexpr Index fewest = 10;  // pairs of voxels
     const auto contact =
         contacts_.find(std::minmax(static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b)));
     return contact != contacts_.end() && contact->second >= fewest;
   }
-  std::size_t size_of(std::size_t k) const { return things_[k].voxels.size(); }
-  Index example_of(std::size_t k) const { return things_[k].voxels.front(); }
-  std::size_t count() const { return things_.size(); }
+  std::vector<std::size_t> largest_first() const {
+    std::vector<std::size_t> order(things_.size());
+    std::iota(order.begin(), order.end(), 0U);
+    std::ranges::stable_sort(order, std::ranges::greater{},
+                             [&](std::size_t k) { return things_[k].voxels.size(); });
+    return order;
+  }
+  Index vertex_of(std::size_t k) const { return things_[k].voxels.front(); }
 
  private:
   void measure(Thing& thing, std::vector<Eigen::Vector3d>& places) const {
@@ -130,11 +138,10 @@ class Containers {
     constexpr double largest_cosine = 0.5;  // of the angle with the support
     const std::optional<Plane>& plane = things_[wall].plane;
     if (!plane || std::abs(cosine_between(*plane, *scene_.plane)) > largest_cosine) return false;
-    if (!touch(wall, floor)) return false;
-    return count_behind(*plane, things_[floor].voxels) <=
-           kMostBehind * static_cast<double>(size_of(floor));
+    const std::vector<Index>& voxels = things_[floor].voxels;
+    return touch(wall, floor) &&
+           count_behind(*plane, voxels) <= kMostBehind * static_cast<double>(voxels.size());
   }
-
   /// The number of voxels that are behind a plane and beyond its margin.
   double count_behind(const Plane& plane, const std::vector<Index>& voxels) const {
     const Eigen::Vector3d eye(scene_.viewpoint.data());
@@ -152,39 +159,50 @@ class Containers {
 
 }  // namespace
 
-std::vector<Index> join_containers(const SceneTree& scene, const Surface& surface, Index min_size,
-                                   std::vector<Index>& object_of) {
-  std::vector<Index> found;
-  if (!scene.plane) return found;
+std::vector<Container> join_containers(const SceneTree& scene, const Surface& surface,
+                                       Index min_size, std::vector<Index>& object_of) {
+  if (!scene.plane) return {};
   const Parts objects = number_parts(object_of, min_size);
-  constexpr std::size_t fewest = 4;  // a container and three things in it
-  if (objects.count() < fewest) return found;
-  const Containers containers(scene, surface, objects);
-  std::vector<std::size_t> largest_first(objects.count());
-  std::iota(largest_first.begin(), largest_first.end(), 0U);
-  std::ranges::stable_sort(largest_first, std::ranges::greater{},
-                           [&](std::size_t k) { return containers.size_of(k); });
-  std::vector<std::size_t> container_of(objects.count());
-  std::iota(container_of.begin(), container_of.end(), 0U);
+  const Containers things(scene, surface, objects);
+  // For each object, the floor of its container, or the object itself.
+  std::vector<std::size_t> floor_of(objects.count());
+  std::iota(floor_of.begin(), floor_of.end(), 0U);
   std::vector<std::size_t> floors;
-  for (const std::size_t k : largest_first) {
-    if (container_of[k] != k) continue;
-    const std::vector<std::size_t> parts = containers.container_of(k);
-    if (parts.empty()) continue;
-    // Two walls that are one part surround the objects as well; they belong to the floor.
+  std::vector<std::vector<std::size_t>> contents(objects.count());
+  for (const std::size_t k : things.largest_first()) {
+    if (floor_of[k] != k) continue;
+    const auto found = things.container_on(k);
+    if (!found) continue;
+    // Two walls that are one part surround the objects as well. They belong to the floor.
     const auto same =
-        std::ranges::find_if(floors, [&](std::size_t floor) { return containers.touch(floor, k); });
+        std::ranges::find_if(floors, [&](std::size_t f) { return things.touch(f, k); });
     const std::size_t floor = same == floors.end() ? k : *same;
-    for (const std::size_t part : parts) container_of[part] = floor;
     if (floor == k) floors.push_back(k);
+    for (const std::size_t part : found->parts) floor_of[part] = floor;
+    contents[floor].insert(contents[floor].end(), found->objects.begin(), found->objects.end());
   }
-  for (const std::size_t floor : floors) found.push_back(containers.example_of(floor));
-  if (found.empty()) return found;
-  for (std::size_t v = 0; v < object_of.size(); ++v)
-    if (objects.of[v] != Parts::kSmall)
-      object_of[v] =
-          object_of[static_cast<std::size_t>(containers.example_of(container_of[objects.of[v]]))];
-  return found;
+  for (std::size_t v = 0; v < object_of.size() && !floors.empty(); ++v)
+    if (objects.of[v] != Parts::kSmall && floor_of[objects.of[v]] != objects.of[v])
+      object_of[v] = object_of[static_cast<std::size_t>(things.vertex_of(floor_of[objects.of[v]]))];
+  std::vector<Container> containers;
+  for (const std::size_t floor : floors) {
+    Container& container = containers.emplace_back(Container{things.vertex_of(floor), {}});
+    for (const std::size_t k : contents[floor])
+      if (floor_of[k] != floor) container.objects.push_back(things.vertex_of(k));
+  }
+  return containers;
+}
+
+void set_containers(std::span<const Container> containers, SceneCut& cut) {
+  const auto label_of = [&](Index v) { return cut.vertex_labels[static_cast<std::size_t>(v)]; };
+  for (const Container& container : containers) {
+    const std::uint32_t label = label_of(container.vertex);
+    if (label == 0) continue;
+    cut.segments[label - 1].role = Role::container;
+    for (const Index v : container.objects)
+      if (const std::uint32_t in = label_of(v); in != 0 && cut.segments[in - 1].on.segment == 0)
+        cut.segments[in - 1].on = {0, label};
+  }
 }
 
 }  // namespace ph::segment

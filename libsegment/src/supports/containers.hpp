@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <span>
 #include <vector>
 
 #include "libsegment/src/objects/objects.hpp"
@@ -7,15 +8,24 @@
 
 namespace ph::segment {
 
-/// Finds bins, trays and other containers, and joins the floor of each container with its walls.
-/// A floor is a part with walls or an object with an opening: the convex hull around it, seen along
-/// the normal of the support, holds the middles of at least three other objects between its lower
-/// and its upper end. A wall of a floor is a flat, steep part that touches the floor, and nothing
-/// of the floor is behind it.
+/// A bin, a tray with a rim, or another segment with objects in it.
+struct Container {
+  Index vertex;                ///< one of its voxels
+  std::vector<Index> objects;  ///< one voxel of each object in it
+};
+
+/// Finds containers, and joins the floor of each container with its walls. A floor is a part with
+/// walls, or an object with an opening: the convex hull around floor and walls, seen along the
+/// normal of the support, contains the middles of at least three other objects, and these middles
+/// lie between the lower and the upper end. A wall of a floor is a flat, steep part that touches
+/// the floor, and nothing of the floor is behind it.
 /// @param object_of for each voxel, one of the voxels of its object. The walls of a container get
 /// the number of its floor. @param min_size the fewest voxels of an object.
-/// @return one voxel of each container. Takes O(voxels + objects²) time.
-std::vector<Index> join_containers(const SceneTree& scene, const Surface& surface, Index min_size,
-                                   std::vector<Index>& object_of);
+/// @return the containers, largest first. Takes O(voxels + objects²) time.
+std::vector<Container> join_containers(const SceneTree& scene, const Surface& surface,
+                                       Index min_size, std::vector<Index>& object_of);
+
+/// Sets the role of containers, and what the objects in them stand on unless it is another object.
+void set_containers(std::span<const Container> containers, SceneCut& cut);
 
 }  // namespace ph::segment
