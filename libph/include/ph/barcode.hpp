@@ -27,14 +27,15 @@ struct Bar {
   friend bool operator==(const Bar&, const Bar&) = default;
 };
 
-/// A cell in terms of the user's input. `numbers` points into the barcode it came from.
+/// A cell in terms of the user's input. `numbers` points into the barcode to which the cell
+/// belongs.
 struct InputCell {
   CellKind kind;
   std::span<const Index> numbers;
 };
 
 /// A chain or cochain in terms of the input: cells of one dimension, each with its coefficient. It
-/// points into the barcode that it came from.
+/// points into the barcode to which it belongs.
 class InputChain {
  public:
   InputChain(CellKind kind, std::span<const Index> numbers,
@@ -46,7 +47,7 @@ class InputChain {
     const std::size_t arity = numbers_.size() / size();
     return {kind_, numbers_.subspan(i * arity, arity)};
   }
-  /// Between -p/2 and p/2, never 0; always 1 over Z/2.
+  /// The coefficient of cell i: between -p/2 and p/2, never 0; always 1 over Z/2.
   std::int64_t coefficient(std::size_t i) const { return coefficients_[i]; }
 
  private:
@@ -59,11 +60,11 @@ class InputChain {
 /// bar lies.
 enum class Representatives {
   none,
-  cycles,    ///< a cycle that is born with the bar and becomes a boundary at its death
+  cycles,    ///< a cycle that is born with the bar and becomes a boundary at the death
   cocycles,  ///< a cochain, zero before the birth, whose coboundary is first non-zero at the death
   /// Images only. Bars of H0 get the voxels of the dying component just before it dies. Bars of the
-  /// second highest dimension get the voxels of the hollow just after its birth. All others get a
-  /// cycle.
+  /// second highest dimension get the voxels of the hollow just after its birth. All other bars get
+  /// a cycle.
   voxels,
 };
 
@@ -97,15 +98,15 @@ class Barcode {
   std::span<const Bar> bars(int dim) const&;
   /// Returns a copy, for a temporary barcode: `for (const Bar& bar : persistence(rips).bars(1))`.
   std::vector<Bar> bars(int dim) &&;
-  /// Position of the longest bar of a dimension; infinite bars count as longest, and the first of
-  /// equal bars is taken.
-  /// @throws Error (usage) if there is none.
+  /// Position of the longest bar of a dimension. Infinite bars count as longest. Among equally long
+  /// bars, the first one is returned.
+  /// @throws Error (usage) if the dimension has no bars.
   std::size_t longest(int dim) const;
 
   CellKind cell_kind() const { return kind_; }
   /// The cell that gave birth to bar i; it has no numbers if cells are not kept.
   InputCell birth_cell(std::size_t i) const { return {kind_, birth_numbers(i)}; }
-  /// The cell that killed bar i; nothing for an infinite bar, or if cells are not kept.
+  /// The cell that killed bar i; empty for an infinite bar, or if cells are not kept.
   std::optional<InputCell> death_cell(std::size_t i) const {
     const std::span<const Index> numbers = death_numbers(i);
     if (numbers.empty()) return std::nullopt;
@@ -115,14 +116,15 @@ class Barcode {
   /// The kind of chain that `representative` returns, as chosen in Options.
   Representatives representatives() const { return representatives_; }
   /// The cycle or cocycle of bar i; the birth cell is one of its cells.
-  /// @throws Error (usage) if no representatives were asked for.
+  /// @throws Error (usage) if no representatives were requested.
   InputChain representative(std::size_t i) const;
-  /// The voxels of bar i, each once: their places in the image in C order (the last axis is the
-  /// fastest). They come in no particular order, because the sets of nested components share
-  /// memory. Empty if the bar has a cycle instead, or if voxels were not asked for.
+  /// The voxels of bar i, each listed once, by their positions in the image in C order (the last
+  /// axis is the fastest). The list is in no particular order, because the sets of nested
+  /// components share memory. It is empty if the bar has a cycle instead, or if voxels were not
+  /// requested.
   std::span<const std::uint32_t> voxels(std::size_t i) const;
   /// The coordinates of the voxel whose value is the birth of bar i, in the order of the input's
-  /// axes; empty if voxels were not asked for.
+  /// axes; empty if voxels were not requested.
   std::span<const Index> birth_voxel(std::size_t i) const;
   /// The coordinates of the voxel whose value is the death of bar i; empty for an infinite bar.
   std::span<const Index> death_voxel(std::size_t i) const;
@@ -150,10 +152,10 @@ class Barcode {
   /// the stored voxels, and the coordinates of the voxels of its birth and death.
   void set_voxels(VoxelRange voxels, std::span<const Index> birth_voxel,
                   std::span<const Index> death_voxel);
-  /// Sorts the bars into the order that the class promises. @throws Error (resource, cancelled).
+  /// Sorts the bars into the order described above. @throws Error (resource, cancelled).
   void sort(const RunContext& context = default_context());
-  /// The number of bytes that must be moved to make room for so many more bars, numbers,
-  /// coefficients and voxels. During the move, these bytes exist twice.
+  /// The number of bytes that must be moved to make room for the given numbers of additional bars,
+  /// cell numbers, coefficients and voxels. During the move, these bytes exist twice.
   std::size_t bytes_moved_for(std::size_t bars, std::size_t numbers, std::size_t coefficients = 0,
                               std::size_t voxels = 0) const {
     const auto moved = [](const auto& all, std::size_t more) {

@@ -18,15 +18,17 @@ namespace ph {
 /// How voxels become cubes.
 struct CubicalOptions {
   enum class Construction {
-    vertices,  ///< voxels are vertices, a cube enters with its last vertex (V): 4/6-neighbours join
-    cells,  ///< voxels are top cubes, a face enters with its first cube (T): 8/26-neighbours join
+    /// V: voxels are vertices, and a cube enters with its last vertex. 4/6-neighbours join.
+    vertices,
+    /// T: voxels are top cubes, and a face enters with its first cube. 8/26-neighbours join.
+    cells,
   };
   Construction construction = Construction::vertices;
   /// Uses the superlevel sets of f: the sublevel filtration of -f, reported with the values of f.
   bool superlevel = false;
   /// True for each axis (of the input) that closes up on itself; empty if none does.
   std::vector<bool> periodic = {};
-  /// Cells of larger values never enter. With `superlevel`, the threshold is a value of -f.
+  /// Cells with larger values never enter. With `superlevel`, the threshold is a value of -f.
   std::optional<double> threshold = std::nullopt;
 };
 
@@ -44,9 +46,10 @@ inline constexpr std::array names_of<CubicalOptions::Construction>{
 ///
 /// The filtration holds the voxels, which it shares with the image. Engines for any filtration need
 /// a table of 4 bytes per cell (2^d cells per voxel) and the sorted values. These are made once, by
-/// `prepare` or when a cell or value is first asked for; an engine that goes voxel by voxel does
-/// not need them. A voxel of +infinity never enters; one of -infinity is born at -infinity (both
-/// after the sign change of superlevel sets). Absent voxels never enter.
+/// `prepare` or when a cell or value is first requested; engines that work voxel by voxel do not
+/// need them. A voxel with the value +infinity never enters, and a voxel with the value -infinity
+/// is born at -infinity. For superlevel sets, this holds after the sign change. Absent voxels never
+/// enter.
 class Cubical {
  public:
   struct Cell {
@@ -69,13 +72,14 @@ class Cubical {
   /// bytes per voxel; `context` limits the memory, receives the progress and can stop the work.
   /// O(cells). Thread-safe.
   /// @throws Error (resource), also on more than 2^32 - 2 voxels, and Error (cancelled); after
-  ///         either error, another call can try again.
+  ///         either error, the call can be repeated.
   void prepare(const RunContext& context) const;
 
   int top_dim() const { return dim_; }
   std::uint32_t key(const Cell& c) const { return c.key; }
   /// The value at which a cell enters; defined in ph/custom.hpp. If `prepare` was not called
-  /// before, the first call does its work, with the context that the filtration was built with.
+  /// before, the first call of `value` does the work of `prepare`, with the context that the
+  /// filtration was built with.
   /// @throws Error (resource) and (cancelled) in that case.
   inline double value(const Cell& c) const;
   static bool precedes(const Cell& a, const Cell& b) {
@@ -93,7 +97,7 @@ class Cubical {
   /// Number of vertices of the grid, including vertices that never enter: voxels (V) or corners
   /// (T).
   std::size_t vertex_count() const;
-  /// The number of a vertex, where all vertices are counted in C order.
+  /// The number of a vertex; the vertices of the grid are numbered in C order.
   std::size_t vertex_number(const Cell& vertex) const;
 
   // Engines call the following members, which are defined in ph/custom.hpp. As with `value`, the

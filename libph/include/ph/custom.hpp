@@ -39,7 +39,8 @@ RunPlan plan(const F& filtration, const Options& options = {}) {
 
 /// The complex, listed cell by cell, for everything that takes an ExplicitComplex: estimates, merge
 /// trees, loops, the programs. Cells that the complex names by their vertices keep these names;
-/// other cells are named by their place, dimension by dimension in the order of the complex.
+/// other cells are named by their position: cells are counted dimension by dimension, in the order
+/// of the complex.
 /// @throws Error (bad_data) if the complex breaks the contract; Error (resource) on lack of memory.
 template <Filtration F>
 ExplicitComplex listed(const F& filtration, const RunContext& context = default_context());
@@ -52,9 +53,9 @@ ExplicitComplex listed(const F& filtration, const RunContext& context = default_
 //   listed_dim(max_dim)    the highest dimension whose cells it lists; -1 if it lists none
 //   run(f, field, bars, context)   computes: reports each pair and each essential class to `bars`
 //
-// and, where they differ from false or null, goes_by_edges, stops_early, is_oracle,
-// rips_bytes(vertices, edges), rips_forms, obstacle(input, task) and suitability(input, task),
-// which EngineFacts explains. can_run, suitability and run are templates of the filtration.
+// Further members are needed only where they differ from false or null: goes_by_edges, stops_early,
+// is_oracle, rips_bytes(vertices, edges), rips_forms, obstacle(input, task) and suitability(input,
+// task). EngineFacts explains them. can_run, suitability and run are templates of the filtration.
 // detail/reduction/twist.hpp is a short example.
 
 /// Adds an engine of your own to all complexes of libph until the program ends: Options can name

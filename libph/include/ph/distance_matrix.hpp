@@ -10,13 +10,14 @@ namespace ph {
 
 /// All distances of a finite set, stored once per pair: the strict lower triangle row by row,
 /// d(1,0), d(2,0), d(2,1), d(3,0), … Points may have births, the values at which they enter; some
-/// matrices have them on the diagonal. The numbers never change, and copies share them.
+/// matrix files store them on the diagonal. A matrix never changes, and its copies share the
+/// numbers.
 class DistanceMatrix {
  public:
   /// @param size number of points. @param lower size*(size-1)/2 distances, each >= 0 or +infinity.
   /// @param births one per point, finite and >= 0, or none.
-  /// @throws Error (bad_data) on a wrong count, a NaN or a negative distance. (The code that uses
-  /// births checks them.)
+  /// @throws Error (bad_data) on a wrong count, a NaN or a negative distance. The births are not
+  /// checked here, but by the code that uses them.
   DistanceMatrix(Index size, std::vector<double> lower, std::vector<double> births = {});
 
   Index size() const { return size_; }

@@ -16,8 +16,8 @@ namespace ph {
 // where points are dense and large at outliers. Twice this distance, used as births of a Rips
 // filtration with WeightExponent::one, gives the DTM filtration of Anai et al. in diameters.
 
-/// The distance of each of `points` to the empirical measure of them all. Uses a k-d tree where
-/// that is faster (Euclidean, Manhattan, Chebyshev and Minkowski distance in few dimensions):
+/// The distance of each of `points` to the empirical measure of all these points. Uses a k-d tree
+/// where that is faster (Euclidean, Manhattan, Chebyshev and Minkowski distance in few dimensions):
 /// usually O(n k log n), otherwise O(n^2).
 /// @param points one point per row. @param p exponent of PointDistance::minkowski.
 /// @param neighbours k, from 1 to the number of points.
@@ -34,7 +34,7 @@ void check_neighbours(Index neighbours, Index size);
 double root_mean_square(std::span<const double> distances);
 }  // namespace detail
 
-/// The distance of each point of a metric to the empirical measure of them all. O(n^2).
+/// The distance of each point of a metric to the empirical measure of all its points. O(n^2).
 template <Metric M>
 std::vector<double> distance_to_measure(const M& metric, Index neighbours,
                                         const RunContext& context = default_context()) {

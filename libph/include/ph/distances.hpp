@@ -15,7 +15,7 @@ namespace ph {
 
 /// The accuracy to which a distance must be known.
 struct DistanceLimits {
-  /// The search may stop once its bounds, see DistanceBounds, satisfy value <= (1 + relative_error)
+  /// The search may stop once its bounds (see DistanceBounds) satisfy value <= (1 + relative_error)
   /// · lower. With 0, the result is the distance itself. Must be finite and at least 0.
   double relative_error = 0;
   /// The search may stop once lower > at_most: it does not matter how much larger the distance is.
@@ -30,11 +30,11 @@ struct DistanceBounds {
   double lower = 0;
 };
 
-/// The bottleneck distance W∞ of two persistence diagrams: the least d such that bars of one
+/// The bottleneck distance W∞ between two persistence diagrams: the least d such that bars of one
 /// diagram can be paired with bars of the other, where births and deaths of a pair differ by at
 /// most d, and bars without a partner are at most 2 d long. The result is not approximated: it is
-/// the deciding difference itself, as computed in double precision. The ground norm is the maximum
-/// norm.
+/// the difference that decides the distance, as computed in double precision. The ground norm is
+/// the maximum norm.
 ///
 /// Bars that never die are paired only with each other, by birth; bars born at -infinity are paired
 /// only with each other, by death. The distance is infinite if the diagrams have different numbers
@@ -47,13 +47,14 @@ struct DistanceBounds {
 /// can be paired, then a single pairing covers both (Mendelsohn and Dulmage, 1958). No list of all
 /// differences is needed: bars with too few partners (Hall, 1935) give a lower bound for d.
 ///
-/// About 2 to 30 values are tried, each with at most O(n^1.5) searches for neighbours; memory O(n).
+/// About 2 to 30 values of d are tried, each with at most O(n^1.5) searches for neighbours. Memory:
+/// O(n).
 /// @param a, b the bars of one dimension each, in any order; their dimension is ignored.
 /// @throws Error (bad_data) on a NaN, or a death before its birth; Error (resource, cancelled).
 double bottleneck_distance(std::span<const Bar> a, std::span<const Bar> b,
                            const RunContext& context = default_context());
 
-/// The bottleneck distance, computed to the accuracy that `limits` asks for. Everything else is as
+/// The bottleneck distance, computed to the accuracy that `limits` requires. Everything else is as
 /// for bottleneck_distance.
 /// @throws Error (usage) on limits out of their range; otherwise as bottleneck_distance.
 DistanceBounds bottleneck_bounds(std::span<const Bar> a, std::span<const Bar> b,
@@ -64,7 +65,7 @@ DistanceBounds bottleneck_bounds(std::span<const Bar> a, std::span<const Bar> b,
 struct BottleneckMatching {
   double distance = 0;  ///< infinite: there are no pairs in that case
   /// Positions in `a` and in `b`, ascending in `a`, each bar in at most one pair. Bars of length 2
-  /// · distance or less may have no pair; they go to the diagonal.
+  /// · distance or less may have no partner; they are matched with the diagonal.
   std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
 };
 
@@ -76,7 +77,8 @@ BottleneckMatching bottleneck_matching(std::span<const Bar> a, std::span<const B
 
 /// The order and the ground norm of a Wasserstein distance.
 struct WassersteinOptions {
-  /// The exponent p: at least 1, finite; infinity would be the bottleneck distance.
+  /// The exponent p: at least 1, finite. (In the limit of large p, the distance becomes the
+  /// bottleneck distance.)
   double order = 1;
   /// The norm q that measures how far apart a pair is: at least 1; 2 is Euclidean, infinity is the
   /// maximum norm.
@@ -84,29 +86,30 @@ struct WassersteinOptions {
   DistanceLimits limits = {};
 };
 
-/// The p-Wasserstein distance of two persistence diagrams: the p-th root of the least cost over all
-/// ways to pair bars, each in at most one pair. A pair costs ‖(birth, death) of one - (birth,
-/// death) of the other‖_q^p; a bar without a partner costs its distance from the diagonal, 2^(1/q -
-/// 1) · length, to the power of p.
+/// The p-Wasserstein distance between two persistence diagrams: the p-th root of the least cost
+/// over all ways to pair bars, each in at most one pair. A pair costs ‖(birth, death) of one -
+/// (birth, death) of the other‖_q^p; a bar without a partner costs its distance from the diagonal,
+/// 2^(1/q - 1) · length, to the power of p.
 ///
 /// Bars that never die are paired only with each other, by birth, at a cost of |difference|^p; bars
 /// born at -infinity are paired only with each other, by death. The distance is infinite if the
 /// diagrams have different numbers of such bars. Bars of length 0 do not count.
 ///
 /// The result is certified: `value` is the cost of a matching, and prices of the bars prove that no
-/// matching costs less than `lower` (duality of linear programs). Without a relative error, both
+/// matching costs less than `lower` (linear programming duality). Without a relative error, both
 /// bounds equal the distance up to rounding: their p-th powers agree to 1e-13 of their size, or to
 /// 2e-15 of the cost of pairing all bars with the diagonal.
 ///
 /// Sources: Bertsekas, The auction algorithm: a distributed relaxation method for the assignment
 /// problem, 1988; Bertsekas, Castañon, A forward/reverse auction algorithm for asymmetric
 /// assignment problems, 1992; Kerber, Morozov, Nigmetov, Geometry helps to compare persistence
-/// diagrams, 2017 (bids by a k-d tree with weights). There is one diagonal instead of a copy of
-/// each bar on it.
+/// diagrams, 2017 (bids are found in a k-d tree with weights). A single diagonal replaces the usual
+/// copy of each bar on the diagonal.
 ///
-/// About 3 to 5 rounds reach a relative error of 1 %, and about 20 rounds reach the end. Each round
-/// makes a few searches in a k-d tree per bar. Memory: O(n). Where an auction takes too many bids,
-/// shortest augmenting paths follow (Jonker, Volgenant, 1987), with at most O(n) searches per bar.
+/// About 3 to 5 rounds reach a relative error of 1 %, and about 20 rounds complete the search. Each
+/// round makes a few searches in a k-d tree per bar. Memory: O(n). If an auction takes too many
+/// bids, shortest augmenting paths complete the matching (Jonker, Volgenant, 1987), with at most
+/// O(n) searches per bar.
 /// @param a, b the bars of one dimension each, in any order; their dimension is ignored.
 /// @throws Error (usage) on options out of their range; Error (bad_data) on a NaN, or a death
 ///         before its birth; Error (resource, cancelled).
@@ -128,15 +131,16 @@ WassersteinMatching wasserstein_matching(std::span<const Bar> a, std::span<const
                                          const WassersteinOptions& options = {},
                                          const RunContext& context = default_context());
 
-/// The sliced Wasserstein distance of two persistence diagrams (order 1), approximated by a finite
-/// number of directions. The points of each diagram, and the points on the diagonal nearest to the
-/// points of the other diagram, are projected to a line. The difference of the two sorted lists of
-/// numbers, Σ |x_i - y_i|, is averaged over the directions of the line: angles k π / directions, k
-/// = 0 … directions - 1. The directions cover half a turn, because the line at π is the line at 0.
+/// The sliced Wasserstein distance between two persistence diagrams (order 1), approximated by a
+/// finite number of directions. The points of each diagram, and the points on the diagonal nearest
+/// to the points of the other diagram, are projected onto a line. The difference between the two
+/// sorted lists of numbers, Σ |x_i - y_i|, is averaged over the directions of the line, which are
+/// the angles k π / directions for k = 0 … directions - 1. The directions cover half a turn,
+/// because the line at π is the line at 0.
 ///
-/// Bars that never die, and bars born at -infinity, add as much as they do in wasserstein_distance.
-/// The distance is infinite if the diagrams have different numbers of such bars. Bars of length 0
-/// do not count.
+/// Bars that never die, and bars born at -infinity, contribute as much as they do to
+/// wasserstein_distance. The distance is infinite if the diagrams have different numbers of such
+/// bars. Bars of length 0 do not count.
 ///
 /// This distance is equivalent to wasserstein_distance of order 1, but not equal: it is at most 2
 /// √2 times as large, whatever the number of directions. exp(-distance) is a positive definite
@@ -156,8 +160,8 @@ using DiagramDistance =
 
 /// The distance between each pair of diagrams. Threads share the pairs, the largest first; the
 /// result depends neither on the threads nor on the order in which pairs are done.
-/// @param distance symmetric; it is called once per pair, with a context of one thread that can be
-///        stopped and that has an equal share of the remaining memory.
+/// @param distance symmetric; it is called once per pair, with a context for one thread, which can
+///        be stopped and has an equal share of the remaining memory.
 /// @throws what `distance` throws; Error (cancelled).
 DistanceMatrix diagram_distances(std::span<const std::span<const Bar>> diagrams,
                                  const DiagramDistance& distance,
@@ -177,7 +181,7 @@ struct BarycentreOptions {
   double least_gain = 1e-6;
 };
 
-/// A diagram in the middle of several others.
+/// A barycentre of several diagrams, and how the search for it ended.
 struct Barycentre {
   std::vector<Bar> bars;        ///< ascending by birth, then death; of dimension 0
   double root_mean_square = 0;  ///< root mean square of the distances to the diagrams
@@ -186,14 +190,14 @@ struct Barycentre {
 };
 
 /// A barycentre (Fréchet mean) of persistence diagrams: a local minimum of the mean square of the
-/// Wasserstein distances (order 2, Euclidean ground norm) from a diagram to the given ones. The
-/// search begins at their medoid: the diagram with the least sum of squared distances, which are
-/// computed to within 1 %; among equals, the first one. It then alternates two steps: each diagram
-/// is matched with the current one, and each bar of the current one moves to the mean of its
-/// partners, where a partner on the diagonal counts as the point nearest to the mean of the others.
-/// A bar without a partner in the current diagram becomes a new bar, moved towards the diagonal by
-/// all diagrams that lack it; a bar with all its partners on the diagonal is removed. The result
-/// may therefore have bars that are 1/N as long as a bar of one of the N diagrams.
+/// Wasserstein distances (order 2, Euclidean ground norm) to the given diagrams. The search begins
+/// at their medoid: the diagram with the least sum of squared distances, which are computed to
+/// within 1 %; among equals, the first one. The search then alternates two steps. First, each given
+/// diagram is matched with the current diagram. Then each bar of the current diagram moves to the
+/// mean of its partners, where a partner on the diagonal counts as the point nearest to the mean of
+/// the others. A bar without a partner in the current diagram becomes a new bar, moved towards the
+/// diagonal by all diagrams that lack it; a bar with all its partners on the diagonal is removed.
+/// The result may therefore have bars that are only 1/N as long as a bar of one of the N diagrams.
 ///
 /// Infinite bars are averaged in the order of their finite ends. Bars of length 0 do not count.
 /// Sources: Turner, Mileyko, Mukherjee, Harer, Fréchet means for distributions of persistence
@@ -202,7 +206,8 @@ struct Barycentre {
 /// 15 rounds of N matchings each, after N²/2 distances. Threads share the diagrams; the result does
 /// not depend on the number of threads.
 /// @throws Error (usage) on no diagram or options out of range; Error (bad_data) on a NaN, a death
-///         before its birth or numbers of infinite bars that differ; Error (resource, cancelled).
+///         before its birth, or diagrams with different numbers of infinite bars; Error (resource,
+///         cancelled).
 Barycentre barycentre(std::span<const std::span<const Bar>> diagrams,
                       const BarycentreOptions& options = {},
                       const RunContext& context = default_context());

@@ -11,7 +11,7 @@ namespace ph {
 /// A matrix with one point per row.
 using PointMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// The points as a matrix, without a copy; they must outlive it.
+/// The points as a matrix, without a copy; the points must outlive the matrix.
 inline Eigen::Map<const PointMatrix> as_matrix(const Points& points) {
   return {points.data(), static_cast<Eigen::Index>(points.rows()),
           static_cast<Eigen::Index>(points.cols())};

@@ -15,13 +15,13 @@ namespace ph {
 /// The kinds of errors, by what a caller can do about them. The programs turn each kind into an
 /// exit code.
 enum class ErrorKind {
-  usage,          ///< an argument or option makes no sense
+  usage,          ///< an argument or option is invalid
   bad_data,       ///< the input is malformed or breaks a precondition
   no_input,       ///< the input is missing or unreadable
-  not_built_in,   ///< this build was made without the feature, or this machine lacks what it needs
+  not_built_in,   ///< this build lacks the feature, or this machine lacks what the feature needs
   cannot_create,  ///< the output cannot be created
-  io,             ///< reading or writing broke off
-  resource,       ///< memory or another limit would be exceeded
+  io,             ///< reading or writing failed partway
+  resource,       ///< a limit on memory or on another resource would be exceeded
   cancelled,      ///< the caller asked to stop
   internal,       ///< a bug in libph
 };
@@ -125,8 +125,8 @@ inline constexpr std::array names_of<Setting>{
     Named{Setting::voxel, "voxel"},
 };
 
-/// A change that would help: a setting with a value (engine, "auto"). The value is empty if any
-/// other value helps, or if the setting has none.
+/// A change that would avoid an error: a setting and its new value, such as (engine, "auto"). The
+/// value is empty if any other value helps, or if the setting has no value.
 struct Remedy {
   Setting setting = Setting::none;
   std::string value;
@@ -135,8 +135,8 @@ struct Remedy {
 
 /// The names of settings in a program or a language.
 struct Words {
-  /// The text for a setting with a value; there may be no value, or several values separated by
-  /// '|', see `alternatives`. An empty text means that the program has no such setting.
+  /// The text for a setting and its value. `value` may be empty, or several values separated by '|'
+  /// (see `alternatives`). An empty text means that the program has no such setting.
   std::string (*setting)(Setting setting, std::string_view value);
 };
 
@@ -145,15 +145,15 @@ struct Words {
 std::string alternatives(std::string_view values, std::string_view quote = {});
 
 /// Marks a setting, and its value if there is one, for the text of a message or an error: each
-/// program and language replaces the mark by its own words. @param value may be several values,
+/// program and language replaces the mark with its own words. @param value may be several values,
 /// separated by '|'.
 std::string mark(Setting setting, std::string_view value = {});
-/// Marks the place of an error, see Message::place.
+/// Marks the place of an error (see Message::place).
 std::string mark_place(std::string_view place);
-/// Marks the value found at the place of an error, see Message::found.
+/// Marks the value found at the place of an error (see Message::found).
 std::string mark_found(std::string_view found);
 
-/// One line for the user: text in which settings are marked.
+/// One line of text for the user, in which settings are marked.
 class Message {
  public:
   Message() = default;
@@ -167,8 +167,8 @@ class Message {
   const std::string& marked() const { return marked_; }
   /// The text with the names of settings in lower case: "nan drop leaves such points out".
   std::string str() const;
-  /// The text in the words of a program or a language. A clause after "; " that names a setting
-  /// which the program does not have is left out.
+  /// The text in the words of a program or a language. If the program lacks a setting, clauses
+  /// after "; " that name it are left out.
   std::string in_words(const Words& words) const;
   /// The message without the clauses after "; " that name this setting.
   Message without(Setting setting) const;

@@ -27,23 +27,23 @@ struct StepFunction {
 };
 
 /// The Euler characteristic curve of a barcode: Σ (-1)^dimension over the bars alive at t, birth <=
-/// t < death. It is the curve of the complex if the barcode has all its dimensions and the bars
-/// that never die: `threshold`, `max_dim` and `min_persistence` must not have cut off any bar. O(n
-/// log n).
+/// t < death. It is the curve of the complex if the barcode has all dimensions of the complex and
+/// all bars that never die: `threshold`, `max_dim` and `min_persistence` must not have cut off any
+/// bar. O(n log n).
 /// @throws Error (bad_data) on a NaN, or a death before its birth.
 StepFunction euler_curve(std::span<const Bar> bars);
 
 /// The Euler characteristic curve of an image: the number of cells of even dimension at t, minus
-/// the number of cells of odd dimension. Supports all options of Cubical, without listing its cells
-/// and without bars. The curve equals the curve of the barcode.
+/// the number of cells of odd dimension. Supports all options of Cubical, but lists no cells and
+/// computes no bars. The curve equals the curve of the barcode.
 ///
 /// Each voxel counts the cells whose value it decides: for each of the 3^d - 1 directions in which
-/// a cell may lie, the voxel is compared with a neighbour, many voxels of a row at a time. Three
-/// layers along the first axis are in memory. Bytes and 16-bit numbers go into one histogram; for
-/// floats, the voxels at which the curve may change are sorted. Threads share the layers; the
-/// result does not depend on the number of threads. Source: Heiss, Wagner, Streaming algorithm for
-/// Euler characteristic curves of multidimensional images, 2017 (a voxel counts the cells that
-/// enter with it). O(voxels · 3^d) time and O(changes) memory.
+/// a cell may lie, the voxel is compared with a neighbour, many voxels of a row at a time. Only
+/// three layers along the first axis are held in memory. Bytes and 16-bit numbers go into one
+/// histogram; for floats, the voxels at which the curve may change are sorted. Threads share the
+/// layers; the result does not depend on the number of threads. Source: Heiss, Wagner, Streaming
+/// algorithm for Euler characteristic curves of multidimensional images, 2017 (a voxel counts the
+/// cells that enter with it). O(voxels · 3^d) time and O(changes) memory.
 /// @throws Error (resource, cancelled).
 StepFunction euler_curve(const Cubical& image, const RunContext& context = default_context());
 

@@ -73,14 +73,14 @@ class ExplicitComplex {
                                        const RunContext& context = default_context());
 
   /// The largest value that bars and merge trees take into account, inclusive: `persistence`, `run`
-  /// and `merge_tree` answer for the subcomplex of all cells up to it. All cells stay listed;
+  /// and `merge_tree` use the subcomplex of all cells with values up to it. All cells stay listed;
   /// therefore the choice of an engine and the cells of the bars do not depend on the threshold.
   /// @throws Error (usage) on a NaN.
   void set_threshold(double largest);
   /// The threshold that was set; empty if all cells count.
   std::optional<double> threshold() const { return threshold_; }
 
-  /// True if incidence numbers are known; without them only Z/2 makes sense.
+  /// True if incidence numbers are known; without them, only coefficients in Z/2 are meaningful.
   bool has_incidences() const { return has_incidences_; }
   /// Number of cells that enter.
   std::size_t size() const { return input_position_.size(); }
@@ -156,9 +156,9 @@ class ExplicitComplex {
   SimplexList simplices_;  // for kind `vertices`: the simplices of the input, vertices ascending
 };
 
-/// The lower-star filtration: a simplex enters with the last of its vertices. The simplices may
-/// come without their faces (the triangles of a mesh, for example); faces are added. The values of
-/// the list are ignored.
+/// The lower-star filtration: a simplex enters with the last of its vertices. The simplices may be
+/// given without their faces (the triangles of a mesh, for example); missing faces are added. The
+/// values of the list are ignored.
 /// @param vertex_values a value for each vertex id 0 … size-1, not NaN; a vertex of value +infinity
 /// never enters.
 /// @throws Error (bad_data) on a vertex id without a value or a NaN, or if sizes disagree.

@@ -46,8 +46,8 @@ inline constexpr std::array names_of<CellKind>{
 // its dimension. The dimension is always passed with it. Cells that never enter (a distance above
 // the threshold, an infinite voxel) are never visited, neither as cells nor as facets or cofacets.
 //
-// Chains. A facet comes with its incidence number, an ordinary int. The boundary of a boundary is
-// zero over the integers, or at least over the field in use. A facet is visited at most once per
+// Chains. A facet is passed with its incidence number, an ordinary int. The boundary of a boundary
+// is zero over the integers, or at least over the field in use. A facet is visited at most once per
 // cell.
 
 // clang-format off
@@ -81,15 +81,17 @@ concept CofacetFiltration =
       /// The first part of the order, shared by all dimensions: a face's key is at most its
       /// coface's key; equal keys mean equal values.
       { f.key(cell) } -> std::unsigned_integral;
-      /// Calls `visit(Cell cofacet, int incidence)`, which returns false to stop.
+      /// Calls `visit(Cell cofacet, int incidence)` for each cofacet; `visit` returns false to
+      /// stop.
       f.for_each_cofacet(dim, cell, [](const typename F::Cell&, int) { return true; });
       /// Capability: the first visited cofacet with the cell's own key precedes all others with
       /// that key. `false` is always safe and costs speed; a wrong `true` gives wrong barcodes.
       { F::first_equal_cofacet_is_oldest } -> std::convertible_to<bool>;
     };
 
-/// Capability: knows its apparent pairs (ph/detail/reduction/apparent_pairs.hpp) without a search
-/// of facets and cofacets. They must be the same pairs that such a search finds.
+/// Capability: the filtration knows its apparent pairs (ph/detail/reduction/apparent_pairs.hpp)
+/// without a search through facets and cofacets. The pairs must be the same as the pairs that such
+/// a search finds.
 template <class F>
 concept ApparentFiltration =
     CofacetFiltration<F> && requires(const F& f, int dim, const typename F::Cell& cell) {
@@ -99,10 +101,10 @@ concept ApparentFiltration =
       /// The number of groups of the cells of dimension >= 1; a cell of a group precedes the cells
       /// of later groups.
       { f.group_count() } -> std::convertible_to<std::size_t>;
-      /// The cells of dimension `dim` >= 1 in no apparent pair: the member `for_each(first, last,
-      /// visit, on_step)` of the result calls `visit(Cell)` for such cells in the groups first …
-      /// last - 1, youngest first, and calls `on_step()` now and then. It is fastest if ranges
-      /// descend from call to call.
+      /// The cells of dimension `dim` >= 1 that are in no apparent pair. The member
+      /// `for_each(first, last, visit, on_step)` of the result calls `visit(Cell)` for such cells
+      /// in the groups first … last - 1, youngest first, and calls `on_step()` now and then. The
+      /// calls are fastest if the ranges of groups descend from call to call.
       f.unmatched_cells(dim).for_each(std::size_t{}, std::size_t{},
                                       [](const typename F::Cell&) {}, [] {});
     };
@@ -115,13 +117,13 @@ concept SlottedFiltration = Filtration<F> && requires(const F& f, const typename
   { f.slot(cell) } -> std::convertible_to<std::size_t>;
 };
 
-/// Capability: some data are made when a cell, facet or value is first asked for, which takes time
+/// Capability: some data are made when a cell, facet or value is first requested, which takes time
 /// and memory. A function that has its own context calls prepare_cells first, which makes the data
 /// within the limits of that context.
 template <class F>
 concept LazyFiltration = Filtration<F> && requires(const F& f, const RunContext& context) {
-  /// Makes these data, unless they exist. `context` limits, watches and stops the work; it need not
-  /// outlive the filtration.
+  /// Makes these data, unless they exist. `context` limits the work, receives its progress and can
+  /// stop it; it need not outlive the filtration.
   f.prepare(context);
 };
 

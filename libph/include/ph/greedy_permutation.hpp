@@ -19,8 +19,8 @@ struct GreedyLimits {
 };
 
 /// Points in the order of farthest-point sampling (Gonzalez, Clustering to minimize the maximum
-/// intercluster distance, 1985): after point 0, each point is the farthest from all points before
-/// it; among equals, the point with the smallest number.
+/// intercluster distance, 1985): after point 0, each point is the one that is farthest from all
+/// points before it; among equals, the point with the smallest number.
 struct GreedyPermutation {
   std::vector<std::uint32_t> points;
   /// For points[k], the distance to the nearest of points[0 … k); infinite for k = 0. The radii
@@ -36,9 +36,9 @@ struct GreedyPermutation {
 // To choose k of n points, both functions compute O(n k) distances and take O(n) memory.
 //
 // The quality of a subsample: Let e be its covering radius, and let the triangle inequality hold.
-// The Rips barcodes of the entire set and of the subsample can be matched such that the bars of the
-// subsample are born and die at the same value or later, by at most 2e; only bars of length 2e or
-// less, of either barcode, are left unmatched. See docs/explanation/approximation.md.
+// The Rips barcodes of the entire set and of the subsample can be matched such that each bar of the
+// subsample is born and dies no earlier than its partner, and at most 2e later; only bars of length
+// 2e or less, of either barcode, are left unmatched. See docs/explanation/approximation.md.
 
 /// The permutation of points; the same as for their metric.
 /// @param points one point per row. @param p exponent of PointDistance::minkowski.

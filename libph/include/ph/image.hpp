@@ -21,29 +21,29 @@ template <class T>
 concept VoxelNumber = std::same_as<T, std::uint8_t> || std::same_as<T, std::uint16_t> ||
     std::same_as<T, std::int16_t> || std::same_as<T, float> || std::same_as<T, double>;
 
-/// Numbers of an image that are used in place: in an array of the caller, or in a mapped file.
+/// Numbers of an image that are used in place: in the caller's array, or in a mapped file.
 struct BorrowedVoxels {
   VoxelType type;
   const void* data;  ///< the first number, aligned; the others follow
   std::size_t count;
-  /// Keeps the memory until the last copy of this object is gone; if null, the caller must keep it
-  /// that long.
+  /// Keeps the memory alive until the last copy of this object is destroyed; if null, the caller
+  /// must keep it alive for that long.
   std::shared_ptr<const void> owner = nullptr;
-  /// True if the numbers lie in a mapped file: numbers already read may leave the memory and come
-  /// back from the file (ph/detail/core/file_pages.hpp). Numbers of an array would be lost that
-  /// way.
+  /// True if the numbers lie in a mapped file: the system may then drop numbers from memory and
+  /// read them again from the file (ph/detail/core/file_pages.hpp). Numbers of an array would be
+  /// lost in this way.
   bool is_file = false;
 };
 
-/// The numbers of an image, stored as they came: a byte stays a byte. They are read as doubles.
-/// Copies share the numbers; changing a copy gives it numbers of its own. Each thread may use its
-/// own copy as if nothing were shared. A moved-from object is empty.
+/// The numbers of an image, stored in their original type: a byte stays a byte. They are read as
+/// doubles. Copies share the numbers; changing a copy gives it numbers of its own. Each thread may
+/// use its own copy as if nothing were shared. A moved-from object is empty.
 class Voxels {
   using Numbers =
       std::variant<std::vector<std::uint8_t>, std::vector<std::uint16_t>, std::vector<std::int16_t>,
                    std::vector<float>, std::vector<double>, BorrowedVoxels>;
-  /// The part that copies share. The last owner changes the numbers in place. It must know that the
-  /// other threads have finished reading. An acquiring load of this counter guarantees it, but
+  /// The part that copies share. The last owner changes the numbers in place. All other threads
+  /// must have finished reading by then. An acquiring load of this counter guarantees this, but
   /// std::shared_ptr::use_count() does not.
   struct Shared {
     Numbers numbers;
@@ -81,8 +81,8 @@ class Voxels {
     const BorrowedVoxels* borrowed = this->borrowed();
     return borrowed != nullptr ? borrowed->type : static_cast<VoxelType>(shared_->numbers.index());
   }
-  /// The first number, of the type that type() names; the others follow. Null, or not to be read,
-  /// if there are no numbers.
+  /// The first number, of the type that type() names; the others follow. If there are no numbers,
+  /// the pointer may be null and must not be read.
   const void* data() const {
     if (shared_ == nullptr) return nullptr;
     return std::visit([](const auto& all) { return data_of(all); }, shared_->numbers);
@@ -103,7 +103,7 @@ class Voxels {
     return with_voxels(type(), data(),
                        [i](const auto* first) { return static_cast<double>(first[i]); });
   }
-  /// A copy, 8 bytes per number.
+  /// A copy of the numbers as doubles, 8 bytes each.
   std::vector<double> doubles() const;
   /// Precondition: !empty().
   double front() const { return (*this)[0]; }
@@ -193,18 +193,19 @@ struct Image {
   std::vector<Index> extents;
   Voxels values;
   /// True if NaN marks an absent voxel, which never enters, in sublevel and in superlevel sets. An
-  /// infinite value is not such a mark, because it has a sign. Without a mask, NaN is an error.
+  /// infinite value cannot be such a mark, because its sign would decide whether the voxel enters
+  /// first or never. Without a mask, NaN is an error.
   bool masked = false;
 
   int dim() const { return static_cast<int>(extents.size()); }
 };
 
-/// An image from an array in memory of any layout: voxel (i, j, …) is data[i * strides[0] + j *
-/// strides[1] + …]. The array is borrowed if it is in C order without gaps; otherwise it is copied,
-/// in its own type. The caller must not change borrowed numbers as long as there is a copy of the
-/// image, or a Cubical made from it.
+/// An image made from an array in memory, which may have any layout: voxel (i, j, …) is data[i *
+/// strides[0] + j * strides[1] + …]. The array is borrowed if it is in C order without gaps;
+/// otherwise it is copied, in its own type. The caller must not change borrowed numbers as long as
+/// there is a copy of the image, or a Cubical made from it.
 /// @param strides one per axis, negative ones allowed; if empty, C order without gaps.
-/// @param owner keeps the array in memory; if null, the caller must.
+/// @param owner keeps the array alive; if null, the caller must keep it alive.
 /// @throws Error (usage) on a negative extent, if there is not one stride per axis, or on more
 /// voxels than std::size_t can count.
 Image image_of_array(VoxelType type, const void* data, std::vector<Index> extents,

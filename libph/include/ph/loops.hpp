@@ -14,17 +14,19 @@ namespace ph {
 /// `closed_walks`. The loops of a bar [b, d) sum to a cycle of edges of value <= b, in which the
 /// birth cell occurs as often as in the chain. This cycle is homologous to the chain in the complex
 /// just before d, or in the last complex if the bar never dies; it therefore represents the bar as
-/// well as the chain does. Tightness::shortest means the following: consider the closed walks that
-/// pass the birth cell once, continue along older edges and, multiplied by the coefficient of the
-/// birth cell, are such a cycle; none of them is shorter. Lengths are sums of the values of edges.
+/// well as the chain does. Tightness::shortest compares the loop with all closed walks that pass
+/// the birth cell once, continue along older edges, and give such a cycle when multiplied by the
+/// coefficient of the birth cell: none of these walks is shorter. The length of a walk is the sum
+/// of the values of its edges.
 ///
-/// The method: A closed walk through the birth edge is a path between its ends. It is homologous to
-/// the chain, in the sense above, if all cocycles that are born before the bar and live at least as
-/// long as the bar have the same value on both (persistent cohomology has a basis of cocycles at
-/// every value). Usually there are no such cocycles, and the shortest path is the answer; otherwise
-/// paths are searched in the cover whose sheets are the values of the cocycles. Where the cocycles
-/// or that search would take too long, the loop is changed step by step over existing triangles.
-/// The choice is made by counting steps, never by time: the result is a function of the input.
+/// The method: A closed walk through the birth edge consists of this edge and a path between its
+/// ends. The walk is homologous to the chain, in the sense above, if all cocycles that are born
+/// before the bar and live at least as long as the bar have the same value on both. (Persistent
+/// cohomology has a basis of cocycles at every value.) Usually there are no such cocycles, and the
+/// shortest path solves the problem. Otherwise the path is searched for in the cover whose sheets
+/// are the values of the cocycles. If computing the cocycles or that search would take too long,
+/// the loop is changed step by step over existing triangles. This choice depends on numbers of
+/// steps, never on time: the result is a function of the input.
 ///
 /// Takes O(edges up to the last birth) memory and at most a few times 10^8 steps. If the memory
 /// limit does not allow this, loops are not tightened, and may even have no lengths.

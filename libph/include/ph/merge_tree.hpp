@@ -52,7 +52,7 @@ struct MergeTree {
   /// for each vertex, a vertex that stands for its entire basin; -1 for a vertex that never enters.
   /// A vertex belongs to the side from which the spanning forest reaches it, which makes a basin
   /// grow until it meets another one, as in ToMATo (Chazal, Guibas, Oudot & Skraba 2013).
-  /// O(vertices); every cut is as quick as the first.
+  /// O(vertices) per call.
   std::vector<Index> basins(double min_persistence, Index min_size = 1) const;
   /// A class of H0: the component that a vertex gave birth to, until it merges into an older
   /// component.
@@ -76,7 +76,7 @@ struct LinkageRow {
   Index size = 0;               ///< vertices of the new cluster
   friend bool operator==(const LinkageRow&, const LinkageRow&) = default;
 };
-/// The merges in the form that programs for hierarchical clustering use (for example SciPy's
+/// The merges in the form that software for hierarchical clustering uses (for example SciPy's
 /// `cluster.hierarchy`): one row per merge, in order; n - 1 rows if everything becomes one cluster.
 std::vector<LinkageRow> linkage(const MergeTree& tree);
 

@@ -40,21 +40,21 @@ struct Options {
   int min_dim = 0;  ///< lowest dimension reported; lower ones are not computed if that saves work
   std::int64_t field = 2;             ///< characteristic of the coefficients: a prime < 2^31
   Engine engine = Engine::automatic;  ///< automatic: the engine that suits the task best
-  /// Rips only. With a collapse, birth and death cells have the values of their bar, but a
-  /// different cell of the same value may be named; zero-length bars and cocycles exclude a
-  /// collapse.
+  /// Rips only. With a collapse, the birth and death cells of a bar have its birth and death as
+  /// their values, but may be other cells than without a collapse. If bars of length zero or
+  /// cocycles are requested, no collapse is possible.
   Collapse collapse = Collapse::automatic;
   /// Bars with death - birth <= this number are left out; a negative number keeps all bars.
   double min_persistence = 0;
-  Representatives representatives = Representatives::none;  ///< chains that come with the bars
-  /// True if bars have their birth and death cells, which takes time and memory.
+  Representatives representatives = Representatives::none;  ///< the chains to compute for the bars
+  /// True if bars get their birth and death cells, which take time and memory.
   bool cells = true;
 };
 
 /// The barcode of a filtered complex: `plan`, then `run`.
 /// @throws Error (usage) on an invalid field, a negative dimension, a NaN among the options, an
-///         engine that cannot do the task or a collapse that the task excludes; Error (resource)
-///         beyond the memory limit; Error (cancelled) on a stop request.
+///         engine that cannot do the task, or a collapse that the task does not allow; Error
+///         (resource) beyond the memory limit; Error (cancelled) on a stop request.
 Barcode persistence(const Rips& rips, const Options& options = {},
                     const RunContext& context = default_context());
 /// Frees the input once the planned form is made, unless there are other copies.
@@ -95,7 +95,7 @@ struct RunPlan {
   /// The form of a Rips filtration that the computation needs; empty for other complexes.
   std::optional<RipsForm> form;
   std::string reason;  ///< the reason for this engine, in one phrase
-  /// The reason to collapse edges or not; empty unless it is a Rips filtration.
+  /// The reason to collapse edges or not; empty unless the complex is a Rips filtration.
   std::string collapse_reason;
 };
 /// Decides in the same way as `persistence`. For most tasks on a Rips filtration no edges are made;
@@ -116,7 +116,7 @@ Barcode run(AnyComplex&& complex, const RunPlan& plan,
 
 /// Facts about a complex that is built as planned.
 struct RunFacts {
-  std::optional<Index> vertices;          ///< only for a Rips filtration, as everything below
+  std::optional<Index> vertices;          ///< this and all members below: only for Rips
   std::optional<std::size_t> edges;       ///< empty if only points are held
   std::optional<double> threshold;        ///< empty if there is no limit
   std::optional<double> covering_radius;  ///< of the subsample; empty without a subsample
@@ -126,7 +126,7 @@ RunFacts facts(const AnyComplex& complex, const RunPlan& plan,
                const RunContext& context = default_context());
 
 /// Compares two barcodes as multisets of (dim, birth, death). @return an empty string if they are
-/// equal, otherwise the first bar that only one of them has, in words.
+/// equal, otherwise a description of the first bar that only one of them has.
 std::string first_difference(const Barcode& a, const Barcode& b);
 
 }  // namespace ph

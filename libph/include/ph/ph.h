@@ -4,9 +4,10 @@
 /* Persistent homology from C, and from all languages that call C: points, distances or an image
  * in, a barcode out. Link ph::c (libph_c.so).
  *
- * - A function that can fail returns a ph_status; ph_last_error() then has this thread's message.
+ * - A function that can fail returns a ph_status; after a failure, ph_last_error() returns this
+ *   thread's message.
  * - The caller frees the handles that a function returns. No handle keeps its input.
- * - No C++ exception leaves the library. Different threads may call at once.
+ * - No C++ exception leaves the library. Several threads may call its functions at once.
  * - The layout of this header is version PH_ABI_VERSION. Structs may grow at their end: the member
  *   `size`, which ph_options_init fills in, tells the library which members the caller knows. */
 #include <stddef.h>
@@ -23,17 +24,18 @@ extern "C" {
 #endif
 
 #define PH_ABI_VERSION 1
-/** The version of the layout that the library has: refuse any other than PH_ABI_VERSION. */
+/** The version of the layout that the library uses. Refuse any library whose version is not
+ * PH_ABI_VERSION. */
 PH_API int ph_abi_version(void);
 /** The version as text, such as "0.1.0". */
 PH_API const char* ph_version(void);
 
 typedef enum ph_status {
   PH_OK = 0,
-  PH_USAGE = 1,     /**< an argument or option makes no sense */
+  PH_USAGE = 1,     /**< an argument or option is invalid */
   PH_BAD_DATA = 2,  /**< the input is malformed or breaks a precondition */
-  PH_RESOURCE = 3,  /**< memory or another limit would be exceeded */
-  PH_CANCELLED = 4, /**< ph_options::cancel asked to stop */
+  PH_RESOURCE = 3,  /**< a limit on memory or on another resource would be exceeded */
+  PH_CANCELLED = 4, /**< ph_options::cancel requested a stop */
   PH_INTERNAL = 5   /**< a bug in libph */
 } ph_status;
 
@@ -92,7 +94,8 @@ typedef struct ph_options {
 #define ph_options_init(options) ph_options_init_sized((options), sizeof(ph_options))
 PH_API void ph_options_init_sized(ph_options* options, size_t size);
 
-/** The half-open interval [birth, death) of a class of H_dim; death is +infinity if it lives on. */
+/** The half-open interval [birth, death) of a class of H_dim; death is +infinity if the class never
+ * dies. */
 typedef struct ph_bar {
   int32_t dim;
   double birth, death;
@@ -100,9 +103,9 @@ typedef struct ph_bar {
 
 typedef struct ph_barcode ph_barcode;
 
-/** The Vietoris-Rips filtration of points: point i, coordinate k is
- * data[i * row_stride + k * column_stride]. Rows one after another have the strides `columns`
- * and 1. The first of equal points stands for all, unless bars of length 0 are asked for
+/** The Vietoris-Rips filtration of points: point i, coordinate k is data[i * row_stride + k *
+ * column_stride]. If rows follow each other without gaps, the strides are `columns` and 1. Equal
+ * points become one vertex, named by the first of them, unless bars of length 0 are requested
  * (min_persistence < 0).
  * @param options NULL: the defaults. @param out set on PH_OK only. */
 PH_API ph_status ph_rips_points(const double* data, int64_t rows, int64_t columns,
@@ -123,15 +126,16 @@ PH_API ph_status ph_cubical_image(const void* data, ph_number type, int32_t axes
                                   const ph_options* options, ph_barcode** out);
 
 /** ph_rips_points for many clouds, several at a time: for many small inputs this is faster than one
- * call per cloud. ph_options::threads and memory_limit hold for all inputs together.
+ * call per cloud. ph_options::threads and memory_limit apply to all inputs together.
  * @param clouds clouds[i] is the start of rows[i] points of `columns` numbers each, row after row.
- * @param out an array of `count` handles, set on PH_OK only. Otherwise ph_last_error() names the
- * input, counted from 0. */
+ * @param out an array of `count` handles, set on PH_OK only. Otherwise ph_last_error() gives the
+ * number of the input, counted from 0. */
 PH_API ph_status ph_rips_points_batch(const double* const* clouds, const int64_t* rows,
                                       int64_t columns, size_t count, const ph_options* options,
                                       ph_barcode** out);
 
-/** ph_cubical_image for many images of the same extents, each in C order; as above. */
+/** ph_cubical_image for many images of the same extents, each in C order. Everything else is as for
+ * ph_rips_points_batch. */
 PH_API ph_status ph_cubical_image_batch(const void* const* images, ph_number type, int32_t axes,
                                         const int64_t* extents, size_t count,
                                         const ph_options* options, ph_barcode** out);
@@ -140,11 +144,11 @@ PH_API ph_status ph_cubical_image_batch(const void* const* images, ph_number typ
 PH_API size_t ph_barcode_size(const ph_barcode* bars);
 /** An array of all bars, which lives as long as the handle. */
 PH_API const ph_bar* ph_barcode_bars(const ph_barcode* bars);
-/** The cell that gave birth to bar i; for the death, the cell that killed it. Points: its vertices,
- * ascending. Images: its doubled grid coordinates, 2k for voxel k and 2k + 1 between k and k + 1
- * (PH_VERTICES).
+/** The cell that gave birth to bar i, or the cell that killed it. For points, the numbers are the
+ * vertices of the cell, ascending. For images, they are its doubled grid coordinates; with
+ * PH_VERTICES, 2k is voxel k, and 2k + 1 spans voxels k and k + 1.
  * @param numbers set to an array that lives as long as the handle. @return the number of numbers; 0
- * for the death of a bar that lives on, without ph_options::cells, or beyond the last bar. */
+ * for the death of a bar that never dies, without ph_options::cells, or beyond the last bar. */
 PH_API size_t ph_barcode_birth_cell(const ph_barcode* bars, size_t i, const int64_t** numbers);
 PH_API size_t ph_barcode_death_cell(const ph_barcode* bars, size_t i, const int64_t** numbers);
 /** Frees a barcode; the handle may be NULL. */

@@ -27,9 +27,9 @@ concept MatrixOfDoubles = requires(const M& m) {
   { m.colStride() } -> std::convertible_to<Index>;
 };
 
-/// Points of R^d in memory that somebody else holds: a matrix with one point per row. Rows may be
-/// contiguous (C order) or columns (F order), with gaps or backwards, as the strides say. Copies
-/// are cheap; the numbers must outlive them.
+/// Points in R^d, in memory that another object owns: a matrix with one point per row. Depending on
+/// the strides, rows are contiguous (C order) or columns are (F order), with or without gaps,
+/// forwards or backwards. Copies are cheap; the numbers must outlive all copies.
 class PointsView {
  public:
   constexpr PointsView() = default;
@@ -37,9 +37,10 @@ class PointsView {
   constexpr PointsView(const double* data, Index rows, Index columns)
       : PointsView(data, rows, columns, columns, 1) {}
   /// @param data coordinate 0 of point 0.
-  /// @param row_stride numbers from a coordinate to the same one of the next point; may be
-  /// negative.
-  /// @param column_stride numbers from a coordinate to the next one of the same point.
+  /// @param row_stride distance, in numbers, from a coordinate to the same coordinate of the next
+  /// point; may be negative.
+  /// @param column_stride distance, in numbers, from a coordinate to the next coordinate of the
+  ///        same point.
   constexpr PointsView(const double* data, Index rows, Index columns, Index row_stride,
                        Index column_stride)
       : data_(data),
@@ -69,7 +70,7 @@ class PointsView {
   Index rows_ = 0, columns_ = 0, row_stride_ = 0, column_stride_ = 1;
 };
 
-/// Points of R^d, one per row, row after row. A moved-from object is empty.
+/// Points in R^d, one per row, row after row. A moved-from object is empty.
 class Points {
  public:
   Points() = default;
@@ -170,7 +171,7 @@ class WholeRows {
 /// @param dimension number of times per point, > 0. @param delay rows between two of these times, >
 /// 0.
 /// @return rows - (dimension - 1) * delay points of dimension * columns coordinates: all quantities
-///         of the first time, then all quantities of the next. Takes time in proportion to the
+///         of the first time, then all quantities of the next. The time is proportional to the
 ///         number of points.
 /// @throws Error (usage) on a dimension or delay below 1; Error (bad_data) if the series is too
 ///         short for one point.

@@ -20,12 +20,13 @@ namespace ph {
 /// The graph of the edges of a Vietoris-Rips filtration; see ph/custom.hpp.
 class RipsGraph;
 
-/// Options that define a Vietoris-Rips filtration. They do not decide the form in which it is held
-/// while its homology is computed: see RipsForm.
+/// Options that define a Vietoris-Rips filtration. They do not decide in which form the filtration
+/// is stored while its homology is computed: see RipsForm.
 struct RipsOptions {
   /// Largest distance at which two points are joined, inclusive. If all distances are known, the
-  /// default is the enclosing radius min_i max_j d(i,j): beyond it only one component is left,
-  /// which means that the barcode is complete. For sparse distances there is no limit by default.
+  /// default is the enclosing radius min_i max_j d(i,j). From this value on, the complex is a cone:
+  /// only one component is left, and no other class. The barcode is therefore complete. For sparse
+  /// distances there is no limit by default.
   std::optional<double> threshold = std::nullopt;
   PointDistance distance = PointDistance::euclidean;  ///< for points
   double minkowski_p = 2;                             ///< exponent of PointDistance::minkowski
@@ -34,7 +35,7 @@ struct RipsOptions {
   std::vector<std::uint32_t> vertices = {};
   /// The diameter at which each point enters, one per point of the input: finite, >= 0; default: 0,
   /// or the births of a DistanceMatrix that has some. An edge enters when the balls around its two
-  /// ends meet, see VertexWeights. A point born after the threshold is left out.
+  /// ends meet (see VertexWeights). A point born after the threshold is left out.
   std::vector<double> births = {};
   /// K: each point is born at twice its distance to the measure of its K nearest points, which
   /// include the point itself (the DTM filtration of Anai et al., see ph/distance_to_measure.hpp).
@@ -56,9 +57,9 @@ struct RipsOptions {
   /// Cycles are cycles of all points; cocycles are cocycles of the distinct points. False: each
   /// point is a vertex. Default: points are merged if that does not change the result.
   std::optional<bool> merge_equal_points = std::nullopt;
-  /// With Device::gpu, the GPU finds the spanning forest of H0; it is the same forest, edge by
-  /// edge. Only for Euclidean points without births whose largest coordinate is 0 or between 1e-140
-  /// and 1e150.
+  /// With Device::gpu, the GPU finds the spanning forest of H0, which is the same forest as on the
+  /// CPU, edge by edge. Only for Euclidean points without births whose largest coordinate is 0 or
+  /// between 1e-140 and 1e150.
   Device device = Device::cpu;
 };
 
@@ -84,7 +85,7 @@ struct RipsSample {
   Index vertices = 0;             ///< an upper bound; equal points are counted separately
   double pairs = 0;               ///< pairs of these vertices, or pairs whose distance is known
   double edges = 0;               ///< approximate number of pairs within the threshold
-  std::vector<double> distances;  ///< distances of pairs taken at random, ascending
+  std::vector<double> distances;  ///< distances of pairs drawn at random, ascending
 };
 
 /// The Vietoris-Rips filtration of a finite set with distances: a simplex enters at its diameter,
@@ -98,8 +99,8 @@ struct RipsSample {
 /// copies are cheap and share everything that is made; several threads may call const members.
 ///
 /// The context of the constructor counts the memory of the forms and of points that were copied or
-/// moved in; it must outlive all copies. The context of a call limits, watches and stops the work
-/// of that call.
+/// moved in; it must outlive all copies. The context of a call limits the work of that call,
+/// receives its progress and can stop it.
 class Rips {
  public:
   /// @param points one point per row, moved in or copied (n * d numbers).
@@ -139,7 +140,7 @@ class Rips {
   /// True if it holds points or distances that were not freed.
   bool has_input() const;
   bool has_births() const;  ///< true if vertices enter at births of their own
-  /// The largest distance from a point to the nearest vertex chosen by the subsample; nothing if
+  /// The largest distance from a point to the nearest vertex that the subsample chose; empty if
   /// there is no subsample. Chooses the vertices if necessary. @throws Error (resource, cancelled).
   std::optional<double> covering_radius(const RunContext& context = default_context()) const;
 
@@ -160,8 +161,8 @@ class Rips {
   ///        or NaN.
   RipsSample sample(const RunContext& context = default_context()) const;
 
-  /// Frees the input, for this object and all copies: only the forms that were made are left. No
-  /// other thread may use one of the copies meanwhile.
+  /// Frees the input, for this object and all copies: only the forms that were made are left.
+  /// Meanwhile, no other thread may use any of the copies.
   void forget_input();
   /// True if nobody else holds the filtration or its input.
   bool is_only_copy() const;

@@ -93,8 +93,8 @@ struct Progress {
   std::uint64_t total = 0;
 };
 
-/// The caller's means to stop, watch and limit a long computation. A context must outlive every
-/// object that was built with it.
+/// The means by which a caller limits, observes and stops a long computation. A context must
+/// outlive every object that was built with it.
 struct RunContext {
   RunContext() = default;
   /// A context whose memory counts against another budget as well, which must outlive the context.
@@ -171,8 +171,8 @@ class InputError : public Error {
 };
 
 /// Calls `work(i, of_input)` for i = 0 … count - 1, on as many threads as `context` allows, one
-/// input per thread: for many small inputs this is faster than all threads on one input. With fewer
-/// inputs than threads, each input gets several threads.
+/// input per thread: for many small inputs, this is faster than using all threads for one input at
+/// a time. With fewer inputs than threads, each input gets several threads.
 ///
 /// Any thread may take any input: the output of `work` must depend on i alone. The context passed
 /// to `work` stops with `context`, shares the rest of its memory limit with all other inputs and

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// Tests which bars exceed chance, and which groups of barcodes differ.
+/// Tests which bars are longer than chance explains, and whether groups of barcodes differ.
 ///
 /// Functions that draw random numbers take a seed, and return the same result for the same seed,
 /// whatever the number of threads.
@@ -24,7 +24,7 @@ enum class DistanceFiltration {
   cech,  ///< Čech complexes, and alpha complexes, whose bars are the same
 };
 
-/// The probability that noise alone gives a bar that stands out as much.
+/// For each bar, the probability that noise alone produces a bar that stands out at least as much.
 struct BarPValues {
   /// One number per bar, by position: the probability that a bar of noise has at least this ratio
   /// of death to birth. 1 for bars of length 0. NaN for bars that never die, because they have no
@@ -36,16 +36,16 @@ struct BarPValues {
   std::size_t tested = 0;  ///< number of bars with a ratio: finite and longer than 0
 };
 
-/// p-values of the bars of one dimension k >= 1 of a point set. Once log log (death / birth) is
-/// shifted to the mean that it has for noise, it follows one law, a left-skewed Gumbel law,
-/// whatever distribution the points come from (a conjecture, tested on many distributions). Values
-/// may be radii, diameters or their squares: p is the same.
+/// p-values of the bars of one dimension k >= 1 of a point set. For bars of noise, log log (death /
+/// birth), shifted to a fixed mean, follows the same left-skewed Gumbel law, whatever the
+/// distribution of the points is (a conjecture, tested on many distributions). Values may be radii,
+/// diameters or their squares: p is the same.
 ///
 /// Source: Bobrowski, Skraba, A universal null-distribution for topological data analysis, 2023.
 /// Needs no resampling. O(n). With few bars the p-values say little, because the shift is the mean
 /// of these bars.
-/// @param bars the bars of one dimension, which is ignored. @param filtration the filtration of the
-/// bars.
+/// @param bars the bars of one dimension; the dimension itself is ignored. @param filtration the
+/// filtration of the bars.
 /// @throws Error (bad_data) on a NaN, a death before its birth, or a birth at 0 or below.
 BarPValues universal_p_values(std::span<const Bar> bars, DistanceFiltration filtration);
 
@@ -59,8 +59,8 @@ struct ConfidenceOptions {
 };
 
 /// A bound for the distance between a sample of points and the entire set that it was drawn from: a
-/// number c such that their Hausdorff distance is at most c with probability 1 - alpha, as the
-/// number of points grows. The bottleneck distance between the barcodes of the distance function is
+/// number c such that their Hausdorff distance is at most c with probability 1 - alpha, in the
+/// limit of many points. The bottleneck distance between the barcodes of the distance function is
 /// then at most c, and bars longer than 2 c are real. The values of a Vietoris-Rips filtration are
 /// diameters, which are twice as large: there, bars longer than 4 c are real.
 ///
@@ -89,8 +89,8 @@ struct ConfidenceBand {
 };
 
 /// A uniform confidence band for the mean of functions, such as landscapes or silhouettes of
-/// samples: with probability 1 - alpha, as the number of samples grows, the true mean lies inside
-/// the band everywhere at once.
+/// samples: with probability 1 - alpha, in the limit of many samples, the true mean lies inside the
+/// band everywhere at once.
 ///
 /// Source: Chazal, Fasy, Lecci, Rinaldo, Wasserman, Stochastic convergence of persistence
 /// landscapes and silhouettes, 2014: the multiplier bootstrap, with normal multipliers.
@@ -116,8 +116,8 @@ struct PermutationTest {
   /// (1 + the number of shuffles whose loss is at most the observed loss) / (1 + the number of all
   /// shuffles). If the groups came from one distribution, p would be at most t with probability t.
   double p = 1;
-  /// The observed loss: Σ over groups of half the mean, within the group, of the distances raised
-  /// to `power`; infinite if doubles cannot hold it.
+  /// The observed loss: for each group, half the mean of distance^power over all pairs within the
+  /// group, summed over the groups. Infinite if doubles cannot hold it.
   double loss = 0;
 };
 
@@ -126,10 +126,11 @@ struct PermutationTest {
 ///
 /// Source: Robinson, Turner, Hypothesis testing for topological data analysis, 2017. O(shuffles ·
 /// n²); threads share the shuffles.
-/// @param distances the distances of all pairs of barcodes, finite. @param groups the group number
-///        of each barcode; there must be at least two groups, each with at least two members.
-/// @throws Error (usage) on other groups or an option out of its range; Error (bad_data) on an
-///         infinite distance; Error (cancelled).
+/// @param distances the distance between each pair of barcodes, finite. @param groups the group
+///        number of each barcode; there must be at least two groups, each with at least two
+///        members.
+/// @throws Error (usage) on groups that break this rule or an option out of its range; Error
+///         (bad_data) on an infinite distance; Error (cancelled).
 PermutationTest permutation_test(const DistanceMatrix& distances,
                                  std::span<const std::int64_t> groups,
                                  const PermutationOptions& options = {},

@@ -15,12 +15,12 @@ struct WeightedEdge {
   friend bool operator==(const WeightedEdge&, const WeightedEdge&) = default;
 };
 
-/// Some of the distances of a finite set; every other pair is never joined. The distances never
+/// Some of the distances of a finite set; all other pairs are never joined. The distances never
 /// change, and copies share them.
 class SparseDistances {
  public:
   /// @param size number of points. @param edges pairs u != v below `size`, each pair at most once,
-  /// distances >= 0. @throws Error (bad_data) naming the edge that breaks this.
+  /// distances >= 0. @throws Error (bad_data) naming the edge that breaks these rules.
   SparseDistances(Index size, std::vector<WeightedEdge> edges);
 
   /// All pairs of points at Euclidean distance <= radius: O(n log n + edges).

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// Vectors of persistence diagrams, for statistics and machine learning.
+/// Turns persistence diagrams into vectors, for statistics and machine learning.
 ///
 /// Conventions of all functions here: They take the bars of one dimension, in any order; the
 /// dimension of a bar is ignored. Bars of length 0 do not count. Bars must be finite unless a
@@ -49,7 +49,7 @@ FiniteBars finite_bars(std::span<const Bar> bars, const InfiniteBars& rule = {})
 /// The values at which a function is evaluated: `points` values, equally spaced, with both ends
 /// included.
 struct Grid {
-  /// Finite, lo < hi; the ends may be equal only with one point, which is lo.
+  /// Finite, lo < hi. If there is only one point, it is lo, and lo may equal hi.
   double lo = 0, hi = 1;
   std::size_t points = 100;  ///< at least 1
 
@@ -59,9 +59,9 @@ struct Grid {
   friend bool operator==(const Grid&, const Grid&) = default;
 };
 
-/// The grid from the smallest finite birth or death in a batch of diagrams to the largest. If there
-/// is only one number, an interval of length 1 around it; if there is none, [0, 1]. Infinite ends
-/// are ignored.
+/// The grid from the smallest finite birth or death in a batch of diagrams to the largest. If all
+/// these numbers are equal, the grid is an interval of length 1 around them; if there are none, it
+/// is [0, 1]. Infinite ends are ignored.
 Grid fit_grid(std::span<const std::span<const Bar>> diagrams, std::size_t points = 100);
 
 /// An interval that is divided into pixels of equal width.
@@ -89,11 +89,11 @@ inline constexpr std::size_t kStatistics = 38;
 
 /// Nine numbers each for births, deaths, midpoints and lengths: mean, standard deviation (of the
 /// population), median, interquartile range, range, and the 10th, 25th, 75th and 90th percentiles
-/// (linear between neighbours). Then the number of bars and their entropy. All are 0 if there are
+/// (linear between neighbours); then the number of bars and their entropy. All are 0 if there are
 /// no bars.
 ///
-/// Source: Ali et al., A survey of vectorization methods in topological data analysis, 2023, where
-/// these numbers did best. O(n log n).
+/// Source: Ali et al., A survey of vectorization methods in topological data analysis, 2023, whose
+/// comparison these numbers won. O(n log n).
 void statistics(std::span<const Bar> bars, std::span<double> out);
 
 /// Names of the columns of `statistics`: birth_mean, birth_sd, …, count, entropy.
@@ -203,13 +203,14 @@ struct AtolOptions {
 };
 
 /// Automatic topologically-oriented learning: the bars of all diagrams are points (birth, death),
-/// k-means finds their centres, and a width is half the distance to the nearest other centre (for a
-/// single centre, the mean distance of the points, or 1 if that is 0).
+/// k-means finds their centres, and the width of a centre is half its distance to the nearest other
+/// centre (for a single centre, the mean distance of the points, or 1 if that is 0).
 ///
 /// Source: Royer et al., 2021, ATOL: measure vectorization for automatic topologically-oriented
-/// learning. The first centres come from k-means++ (Arthur, Vassilvitskii, 2007); rounds follow
-/// until no point changes its centre. The result is the same on any machine, for bars and diagrams
-/// in any order and for any number of threads. O(n · centres) per round, shared by threads.
+/// learning. k-means++ chooses the first centres (Arthur, Vassilvitskii, 2007); rounds of k-means
+/// follow until no point changes its centre. The result is the same on any machine, for bars and
+/// diagrams in any order and for any number of threads. O(n · centres) per round, shared by
+/// threads.
 /// @throws Error (usage) on options out of range; Error (bad_data) on fewer distinct points than
 ///         centres; Error (resource, cancelled).
 Atol fit_atol(std::span<const std::span<const Bar>> diagrams, const AtolOptions& options = {},
@@ -221,7 +222,7 @@ void atol_vector(std::span<const Bar> bars, const Atol& fitted, std::span<double
 
 // ---- kernels
 
-/// The persistence scale-space kernel of two diagrams: 1 / (8 π sigma) · Σ (exp(-|p - q|² / (8
+/// The persistence scale-space kernel for two diagrams: 1 / (8 π sigma) · Σ (exp(-|p - q|² / (8
 /// sigma)) - exp(-|p - q'|² / (8 sigma))) over bars p of one diagram and q of the other, where q'
 /// is q with birth and death exchanged. It is positive definite. sigma has the squared unit of the
 /// values.
@@ -248,14 +249,14 @@ double weighted_gaussian_kernel(std::span<const Bar> a, std::span<const Bar> b,
                                 const WeightedGaussian& options = {},
                                 const RunContext& context = default_context());
 
-/// A kernel of two diagrams. Several threads may call it at once.
+/// A kernel for two diagrams. Several threads may call it at once.
 using DiagramKernel =
     std::function<double(std::span<const Bar>, std::span<const Bar>, const RunContext&)>;
 
 /// The Gram matrix of N diagrams: N × N in C order, symmetric. Threads share the pairs; the result
 /// does not depend on the number of threads.
 /// @param kernel symmetric; called once per pair, including each diagram with itself, with a
-/// context of one thread.
+/// context for one thread.
 /// @throws what `kernel` throws; Error (cancelled).
 std::vector<double> gram_matrix(std::span<const std::span<const Bar>> diagrams,
                                 const DiagramKernel& kernel,

@@ -17,7 +17,7 @@ struct PointImage {
   double voxel = 0;  ///< edge length of a voxel
 };
 
-/// The value of a voxel of a point cloud. Low values enter first.
+/// The meaning of the values of voxels that are made from a point cloud. Low values enter first.
 enum class VoxelValue {
   /// The distance from the voxel's centre to the centre of the nearest voxel that contains a point.
   /// Sublevel sets are growing balls around the points, as in the alpha filtration, at a cost that
@@ -27,7 +27,7 @@ enum class VoxelValue {
   /// Harer, Stability of persistence diagrams, 2007).
   distance,
   occupancy,  ///< 0 if the voxel contains a point; otherwise absent, see Image::masked
-  density,    ///< the negated number of points in it; absent if there are none
+  density,    ///< the negated number of points in the voxel; absent if there are none
 };
 
 template <>

@@ -58,10 +58,10 @@ struct DepthImage {
 /// for cloud_from_depth. @throws Error (bad_data) also on more channels or other axes.
 DepthImage read_depth(const Input& input, const ReadOptions& options = {});
 
-/// Counts of the pixels of a depth image that have a depth but become holes, by reason.
+/// The numbers of pixels of a depth image that have a depth but become holes, by reason.
 struct DepthCounts {
   Index negative = 0;  ///< pixels with a depth below 0
-  Index unseen = 0;    ///< pixels at which the lens shows no ray
+  Index unseen = 0;    ///< pixels that no ray through the lens reaches
 };
 
 /// The organised cloud of a depth image: x right, y down, z forward, metres; fields x y z (float32)
@@ -86,9 +86,8 @@ enum class PlyData { ascii, little_endian };
 /// @throws Error (io) if the stream fails.
 void write_pcd(std::ostream& out, const Cloud& cloud, PcdData data = PcdData::binary_compressed);
 
-/// Writes all fields as vertex properties. PLY has no rgb packed in a float and no 64-bit integers:
-/// a field rgb or rgba becomes red green blue (alpha); fields with a count become name_0, name_1,
-/// ….
+/// Writes all fields as vertex properties. PLY has neither packed colours nor 64-bit integers: a
+/// field rgb or rgba becomes red green blue (alpha); fields with a count become name_0, name_1, ….
 /// @throws Error (bad_data) on a 64-bit integer field; Error (io) if the stream fails.
 void write_ply(std::ostream& out, const Cloud& cloud, PlyData data = PlyData::little_endian);
 

@@ -41,7 +41,7 @@ struct PlotOptions {
   std::string title;                             ///< empty if there is none
   std::string value_label = "Filtration value";  ///< names the axis and, in brackets, its unit
   std::vector<int> dims = {};                    ///< dimensions of a barcode to draw; empty: all
-  /// The picture is fitted into this size, with white around it; default: 88 mm wide.
+  /// The picture is fitted into this size, with white margins; default: 88 mm wide.
   std::optional<PlotSize> size = {};
   PlotAxis axis = {};
   /// True if values belong to negated data (superlevel sets): the axis shows the data's own values,

@@ -125,22 +125,27 @@ struct ReadOptions {
   std::vector<Index>* dropped = nullptr;   ///< receives the rows that were left out, ascending
 };
 
-// Every reader takes a path ("-" is standard input) or an open Input. All of them throw Error
-// (bad_data) "name:line:column (or byte): what, found X, expected Y; hint" Error (no_input) the
-// file is missing, unreadable or a directory Error (io) reading broke off, or there is no room for
-// a temporary file Error (resource) the budget of the context would be exceeded Error (cancelled) a
-// stop was requested Error (usage) options.columns names a missing column, or an option does not
-// fit The readers take linear time, and memory at most in proportion to the size of the input.
+// Every reader takes a path ("-" is standard input) or an open Input. All readers throw these
+// errors:
+//
+// - Error (bad_data): "name:line:column (or byte): what, found X, expected Y; hint".
+// - Error (no_input): the file is missing, unreadable or a directory.
+// - Error (io): reading failed partway, or there is no room for a temporary file.
+// - Error (resource): the budget of the context would be exceeded.
+// - Error (cancelled): a stop was requested.
+// - Error (usage): options.columns names a missing column, or an option does not fit the input.
+//
+// The readers take linear time, and memory at most in proportion to the size of the input.
 
 /// Points, one per line: numbers separated by blanks, commas or semicolons. A first row without any
-/// number is skipped with a note. Also takes NPY (2-D), NPZ, PCD and PLY, recognised by content.
+/// number is skipped with a note. Also reads NPY (2-D), NPZ, PCD and PLY, recognised by content.
 /// @return one point per row. An input without points is an error unless options.allow_empty.
 Points read_points(const std::filesystem::path& path, const ReadOptions& options = {});
 Points read_points(const Input& input, const ReadOptions& options = {});
 
 /// A full square matrix: as many columns as rows, zero diagonal, symmetric (see Symmetrise);
 /// +infinity means never joined. With options.from_correlation it is a correlation matrix; with
-/// Diagonal::births its diagonal has the births of the points. Also takes NPY, NPZ and DIPHA's
+/// Diagonal::births its diagonal has the births of the points. Also reads NPY, NPZ and DIPHA's
 /// distance matrices.
 DistanceMatrix read_distances(const std::filesystem::path& path, const ReadOptions& options = {});
 DistanceMatrix read_distances(const Input& input, const ReadOptions& options = {});
@@ -163,7 +168,7 @@ DistanceMatrix read_binary_distances(const std::filesystem::path& path,
 DistanceMatrix read_binary_distances(const Input& input, const ReadOptions& options = {});
 
 /// Pairs of points, one per line: `i j d`, ids from 0; the number of points is the largest id + 1.
-/// A pair may be listed twice with the same distance. Also takes DIPHA's sparse distance matrices,
+/// A pair may be listed twice with the same distance. Also reads DIPHA's sparse distance matrices,
 /// which state the number of points.
 SparseDistances read_sparse(const std::filesystem::path& path, const ReadOptions& options = {});
 SparseDistances read_sparse(const Input& input, const ReadOptions& options = {});
@@ -177,7 +182,7 @@ SparseDistances read_sparse(const Input& input, const ReadOptions& options = {})
 Image read_image(const std::filesystem::path& path, const ReadOptions& options = {});
 Image read_image(const Input& input, const ReadOptions& options = {});
 /// NumPy's .npy: booleans, integers, floats (16, 32, 64 bits), both byte orders and both storage
-/// orders; the result is in C order. Also takes an .npz that holds one array, or the array that
+/// orders; the result is in C order. Also reads an .npz that holds one array, or the array that
 /// Input::member names ("scans.npz:brain").
 Image read_npy_image(const Input& input, const ReadOptions& options = {});
 
@@ -204,7 +209,7 @@ struct PerseusImage {
 PerseusImage read_perseus(const std::filesystem::path& path, const ReadOptions& options = {});
 PerseusImage read_perseus(const Input& input, const ReadOptions& options = {});
 
-/// Filtered simplices with the lines they come from.
+/// Simplices with values, and the line of the file on which each simplex stands.
 struct SimplicesInput {
   SimplexList simplices;
   std::vector<std::size_t> lines;  ///< simplex i is on lines[i], from 1
@@ -234,8 +239,8 @@ struct BoundaryInput {
 /// PHAT's boundary matrices over Z/2. The text has one cell per line: its dimension, then the
 /// indices of its facets. The binary form has int64 numbers, little endian: the number of cells,
 /// then for each cell its dimension, the number of its facets, and the facets. Indices count from 0
-/// and name earlier columns, ascending. Also takes DIPHA's weighted boundary matrices, whose
-/// columns may come in any order.
+/// and name earlier columns, ascending. Also reads DIPHA's weighted boundary matrices, whose
+/// columns may be in any order.
 /// @param values_path a file with one value per cell: text, or float64 little endian; if empty, the
 /// value of a cell is its position.
 BoundaryInput read_phat(const std::filesystem::path& path,
@@ -243,8 +248,9 @@ BoundaryInput read_phat(const std::filesystem::path& path,
                         const ReadOptions& options = {});
 BoundaryInput read_phat(const Input& input, const ReadOptions& options = {});
 
-/// Reads `count` numbers, as text or as raw float64 little endian. @param owner names the things
-/// that have one number each, for messages. @throws Error (bad_data) on another count or a NaN.
+/// Reads `count` numbers, as text or as raw float64 little endian. @param owner names, in messages,
+/// the things that have one number each. @throws Error (bad_data) if there are more or fewer
+/// numbers, or on a NaN.
 std::vector<double> read_values(const Input& input, std::size_t count,
                                 const ReadOptions& options = {}, std::string_view owner = "cell");
 
@@ -327,8 +333,9 @@ const FormatInfo& format_info(Format format);
 std::optional<Format> format_from_name(std::string_view name);
 
 /// Detects the format by magic numbers, then by extension, then by the shape of the first lines.
-/// Never returns Format::automatic; a text of numbers without further evidence is `points`. Ignores
-/// options; read_any uses options to learn more about text.
+/// Never returns Format::automatic; a text of numbers counts as `points` unless there is other
+/// evidence. No options are considered here, but read_any considers its options to learn more about
+/// text.
 Format detect_format(const Input& input);
 
 /// Reads any format.

@@ -28,7 +28,7 @@ enum class BarcodeFormat {
   none,    ///< nothing
 };
 
-// The next structs are not nested in BarcodeInfo, which has aliases of them: Clang does not let
+// The next structs are not nested in BarcodeInfo, which has aliases for them: Clang does not let
 // std::optional make an object whose members have initialisers while the enclosing class is
 // incomplete.
 
@@ -53,9 +53,9 @@ struct BarcodeAlphaValues {
   std::vector<Index> hidden;  ///< points that are not part of the complex
 };
 
-/// The origin of a barcode: everything that the JSON format says besides the bars. Empty members
-/// are left out; if `complex` is empty, the field of coefficients, the dimension and the threshold
-/// are left out as well.
+/// The origin of a barcode: everything that the JSON format states in addition to the bars. Empty
+/// members are left out; if `complex` is empty, the field of coefficients, the dimension and the
+/// threshold are left out as well.
 struct BarcodeInfo {
   std::string program;            ///< name and version
   std::string input;              ///< path of the input
@@ -70,7 +70,8 @@ struct BarcodeInfo {
   /// For an image, the construction: "vertices" or "cells", see CubicalOptions::Construction.
   std::string construction;
   std::vector<int> periodic;  ///< axes of an image that close up
-  /// If vertices enter late, the reason and the method: "dtm 5, exponent 1".
+  /// If vertices have births, the source of the births and the weight exponent: "dtm 5, exponent
+  /// 1".
   std::string vertex_weights;
   /// The subsample, if the points were chosen by a greedy permutation; see
   /// ph/greedy_permutation.hpp.
@@ -84,7 +85,7 @@ struct BarcodeInfo {
   std::optional<AlphaValues> alpha;
   bool superlevel = false;              ///< values are the negated values of the image
   std::optional<double> approximation;  ///< epsilon of a sparse Rips filtration
-  /// The loops of each bar, as ph::loops returns them, which are written beside the cycles. Empty
+  /// The loops of each bar, as ph::loops returns them, which are written next to the cycles. Empty
   /// if there are none.
   std::span<const BarLoops> loops;
   /// The p-value of each bar, written in CSV and JSON; NaN if a bar has none. Empty if no bar has
@@ -107,16 +108,17 @@ struct BarcodeFormatInfo {
 
 /// All formats, in the order of BarcodeFormat.
 std::span<const BarcodeFormatInfo> barcode_formats();
-/// The name of a format on the command line, and the format with a given name, or nothing if there
-/// is none.
+/// The name of a format on the command line.
 std::string_view barcode_format_name(BarcodeFormat format);
+/// The format with this name; empty if there is none.
 std::optional<BarcodeFormat> barcode_format_named(std::string_view name);
 /// The format that a file name's extension stands for (.csv, .json, .ripser, .pers, .dipha or
 /// .diagram, .npy), or nothing for an unknown one. Case does not matter.
 std::optional<BarcodeFormat> barcode_format_of_path(std::string_view path);
 
 /// Writes a barcode; the caller commits the file.
-/// @throws Error (io) as OutputFile; Error (usage) on loops or p-values of other bars.
+/// @throws Error (io) as OutputFile; Error (usage) on loops or p-values that do not belong to these
+///         bars.
 void write_barcode(OutputFile& file, const Barcode& barcode, BarcodeFormat format,
                    const BarcodeInfo& info = {});
 
@@ -143,9 +145,9 @@ struct StoredBarcode {
 StoredBarcode read_stored_barcode(const Input& input,
                                   std::optional<BarcodeFormat> format = std::nullopt);
 
-/// True if a file is certainly a barcode: a header `dim,birth,death`, JSON, text of Ripser, DIPHA's
-/// diagram, or a file name that ends in .pers. Rows of numbers alone, in text or NPY, may be
-/// anything.
+/// True if a file is certainly a barcode: a header `dim,birth,death`, JSON, the output of Ripser,
+/// DIPHA's diagram, or a file name that ends in .pers. Rows of numbers alone, in text or NPY, may
+/// be anything.
 bool is_barcode(const Input& input);
 
 /// The file formats of a surface.

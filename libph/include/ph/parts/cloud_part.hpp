@@ -19,8 +19,9 @@ struct CloudPartOptions {
   /// Largest distance at which two points are joined, inclusive. By default there is no limit.
   std::optional<double> threshold = std::nullopt;
   PointDistance distance = PointDistance::euclidean;  ///< parts support no other distance
-  /// A part goes through this many blocks, one after another, and holds one block at a time. 0: as
-  /// many as give a block about four million points. The result does not depend on this number.
+  /// A part is processed in this many blocks, one after another, and holds one block at a time. 0:
+  /// the number is chosen such that a block has about four million points. The result does not
+  /// depend on this number.
   int blocks = 0;
   /// Number of points drawn to cut the cloud, and to find which points are far apart. 0: chosen by
   /// the part.
@@ -43,7 +44,7 @@ struct CloudPartForecast {
 /// The components of a point cloud, as far as some of its blocks, and the points near these blocks,
 /// determine them: edges of the cloud's minimum spanning tree. Parts are computed separately, by
 /// any processes that can read the cloud, on any machines, and can be joined in any grouping and
-/// order: all parts together give, bit by bit, the spanning forest of Rips for the entire cloud.
+/// order: all parts together give, bit for bit, the spanning forest of Rips for the entire cloud.
 /// See docs/explanation/engines/cloud-parts.md.
 ///
 /// The points have at most eight coordinates and Euclidean distances. A cloud may have any number

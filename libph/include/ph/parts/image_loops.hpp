@@ -13,8 +13,8 @@
 namespace ph {
 
 /// The loops of one part of a volume: bars that need all layers together, above all in dimension 1.
-/// Parts work side by side, in any processes on any machines, and send each other messages until no
-/// message is on its way. The order of work and of messages does not matter: the bars are always
+/// Parts work in parallel, in any processes on any machines, and send each other messages until no
+/// message is in transit. The order of work and of messages does not matter: the bars are always
 /// the bars of the entire volume. See docs/explanation/engines/slabs.md.
 ///
 ///     ImageLoops loops(part);                      // then `part` is joined with the others
@@ -42,10 +42,10 @@ class ImageLoops {
   int part() const;
   /// @param told the result of `ImagePart::told_to_loops` for this part. @throws Error (bad_data).
   void begin(std::span<const std::byte> told);
-  /// Takes in a message for this part, which may come even before `begin`. Each message must come
-  /// once, in any order.
-  /// @throws Error (bad_data) if a message is damaged or has come before; later results are then
-  ///         useless.
+  /// Takes in a message for this part, which may arrive even before `begin`. Each message must be
+  /// received exactly once; the order does not matter.
+  /// @throws Error (bad_data) if a message is damaged or was received before; later results are
+  ///         then useless.
   void receive(std::span<const std::byte> message);
   /// True if there is nothing to do until a message is received.
   bool is_idle() const;
@@ -64,8 +64,8 @@ class ImageLoops {
   /// sent has been received.
   Barcode barcode() const;
 
-  /// Amounts sent and received until now. Once no message is on its way, the amounts sent and
-  /// received by all parts together are equal.
+  /// Amounts sent and received so far. Once no message is in transit, the amounts sent and received
+  /// by all parts together are equal.
   struct Traffic {
     std::uint64_t columns_sent = 0, columns_received = 0, bytes_sent = 0;
     std::uint64_t messages_sent = 0, messages_received = 0;

@@ -19,9 +19,9 @@ struct ImagePartOptions {
   int min_dim = 0;
   std::optional<int> max_dim = std::nullopt;  ///< default: all dimensions
   bool cells = true;                          ///< if false, bars have no cells
-  /// True if bars that need all layers of a volume may be wanted: ImageLoops finds them, in images
-  /// of at most three axes. A part with loops looks at all its layers at once, whatever
-  /// RunContext::slab_layers says.
+  /// True if bars that need all layers of a volume may be requested later: ImageLoops finds them,
+  /// in images of at most three axes. A part with loops processes all its layers at once, whatever
+  /// the value of RunContext::slab_layers is.
   bool loops = false;
   /// The first layer of each part, ascending from 0; by default, parts have about equal size.
   std::vector<Index> first_layers = {};
@@ -57,7 +57,7 @@ struct ImagePartForecast {
 class ImagePart {
  public:
   /// Computes layers n · part / parts up to n · (part + 1) / parts of the n layers of the slowest
-  /// axis, or the layers that the options name. Looks only at the voxels of these layers and of one
+  /// axis, or the layers that the options name. Reads only the voxels of these layers and of one
   /// layer on either side.
   /// @param part counted from 0. @param parts at most one per layer.
   /// @param context must outlive the part and the part that it is joined with; the same holds for
@@ -96,7 +96,7 @@ class ImagePart {
   /// The bars of positive length, except the bars that ImageLoops finds. Precondition: is_whole().
   Barcode barcode(const RunContext& context = default_context()) const;
 
-  /// True if ImageLoops is needed for bars that the options ask for.
+  /// True if the options request bars for which ImageLoops is needed.
   bool has_loops() const;
   /// The results of the joins that ImageLoops::begin needs for one part, as bytes. Precondition:
   /// is_whole(), has_loops().
