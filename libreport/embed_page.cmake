@@ -13,7 +13,7 @@ if(PAGE)
     endif()
   endforeach()
 endif()
-file(WRITE "${CODE}" "// Made of ${PAGE}; do not change.
+file(WRITE "${CODE}" "// Generated from ${PAGE}; do not edit.
 #include \"ph/detail/report/page_template.hpp\"
 
 namespace ph::report {

@@ -152,7 +152,7 @@ std::vector<std::uint32_t> birth_vertices(const Barcode& barcode) {
 }
 
 /// Writes the segments and surfaces of the segmentation, as the label and the surface of each leaf.
-/// Other cuts also need the number of voxels of each leaf that are on each surface that was found.
+/// For other cuts, it also writes how many voxels of each leaf lie on each surface that was found.
 void add_answer(ReportFile& report, const Segmentation& s, const ContractedTree& contracted) {
   const std::size_t leaves = contracted.leaf_birth.size();
   std::vector<std::uint32_t> labels(leaves);

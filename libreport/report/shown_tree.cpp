@@ -13,8 +13,8 @@
 namespace ph::report {
 namespace {
 
-// With up to this number of merges, a page stays interactive. Merges at the lowest levels are
-// contracted.
+// With up to this number of merges, a page stays interactive. If there are more, the merges at the
+// lowest levels are contracted.
 constexpr std::size_t kMostMerges = 100'000;
 
 std::optional<MergeTree> tree_of(const Rips& rips, const RunContext& context) {
@@ -25,7 +25,7 @@ std::optional<MergeTree> tree_of(const Rips& rips, const RunContext& context) {
     options.merge_equal_points.reset();
     return tree_of(rips.with(std::move(options), context), context);
   }
-  // A graph with names may lack some points as vertices.
+  // In a graph with names, some points may not be vertices.
   if (rips.graph(RipsForm::forest, context).has_names()) return std::nullopt;
   return merge_tree(rips, context);
 }
@@ -88,10 +88,11 @@ std::optional<double> middle_of_widest(const std::vector<double>& levels, double
   return middle;
 }
 
-/// A cut in the gap where neighbouring levels of the largest merges have the largest ratio. Levels
-/// above this gap are much more persistent than levels below it. If no ratio is large, the cut of
-/// basins is in the gap with the largest difference, and the cut of components is the largest
-/// level, which leaves the fewest parts. Without merges, the cut is `from`.
+/// A cut in a gap between neighbouring levels of the largest merges: the gap whose two levels have
+/// the largest ratio. Merges above this gap are much more persistent than merges below it. If no
+/// ratio is large, the cut of basins is in the gap whose two levels have the largest difference,
+/// and the cut of components is the largest level, which leaves the fewest parts. Without merges,
+/// the cut is `from`.
 double cut_in_gap(const ContractedTree& contracted, const MergeTree& tree, CutRule rule,
                   double from) {
   constexpr std::ptrdiff_t most = 65;  // the upper end of a gap is one of the largest 64 levels

@@ -11,7 +11,7 @@
 
 namespace ph::report {
 
-/// The contents of a barcode's page. Everything that it refers to must outlive the page.
+/// The contents of a barcode's page. All objects to which it refers must outlive it.
 struct BarcodePage {
   std::string title;
   const Barcode& barcode;

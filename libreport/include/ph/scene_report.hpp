@@ -8,7 +8,7 @@
 
 namespace ph::report {
 
-/// The contents of a segmentation's page. Everything that it refers to must outlive the page.
+/// The contents of a segmentation's page. All objects to which it refers must outlive it.
 struct ScenePage {
   std::string title;
   const segment::Segmentation& segmentation;

@@ -73,7 +73,7 @@ void add_pictures(ReportFile& report, std::span<const Barcode> barcodes, const M
   options.negated = meta.negated;
   std::vector<std::string> pictures;
   for (std::size_t i = 0; i < barcodes.size(); ++i) {
-    // This is the memory with which the plot finds the longest bars.
+    // The plot needs this memory to find the longest bars.
     const MemoryClaim places(report.context().memory, 2 * barcodes[i].size() * sizeof(std::size_t));
     options.title = meta.barcodes[i].name;
     pictures.push_back(svg_plot(barcodes[i], options));

@@ -22,12 +22,12 @@ struct Standing {
 ///
 /// A segment takes the number of the object with which it overlaps most. The overlap is the number
 /// of shared places, divided by the number of places in the union of the two. The shared places
-/// must be more than a quarter of the smaller of the two. Pairs with the largest overlap come
-/// first, and no object is taken twice. All other segments get new numbers, 1, 2, …. An object that
-/// no segment took keeps the places that no segment covers, and keeps its number for some frames.
-/// Walls and boards have numbers as well. The role of an object, and what the object stands on,
-/// change only when three frames in a row agree: a wall that is a segment in one frame is still a
-/// wall. O(n log n) per frame; the tracker stores one frame.
+/// must be more than a quarter of the smaller of the two. Pairs with the largest overlap are
+/// matched first, and no object is matched twice. All other segments get new numbers, 1, 2, …. An
+/// object that no segment took keeps the places that no segment covers, and keeps its number for
+/// some frames. Walls and boards have numbers as well. The role of an object, and what the object
+/// stands on, change only when three frames in a row agree: a wall that is a segment in one frame
+/// is still a wall. O(n log n) per frame; the tracker stores one frame.
 class LabelTracker {
  public:
   /// @param patience the number of frames for which an unseen object is remembered, >= 0.
@@ -37,7 +37,7 @@ class LabelTracker {
 
   /// Takes the next frame of a sensor with a fixed raster: places are pixels.
   /// @param labels one per pixel: 0 for none, else any number of a segment. A frame whose size
-  /// differs from the frame before shares nothing with it.
+  /// differs from the size of the previous frame has no places in common with it.
   /// @return for each pixel, the number of the object to which its segment belongs; 0 if there is
   /// none.
   std::vector<std::uint32_t> update(std::span<const std::uint32_t> labels);
@@ -48,7 +48,7 @@ class LabelTracker {
   /// @throws Error (bad_data) if the cut does not belong to this scene.
   std::vector<std::uint32_t> update(const SceneTree& scene, const SceneCut& cut);
   /// The roles of the segments of the last scene: label i + 1 is at i. `on` names a surface and a
-  /// segment of that scene. Empty after labels alone.
+  /// segment of that scene. Empty if the last frame was given as labels alone.
   const std::vector<Standing>& standings() const { return standings_; }
 
  private:
@@ -81,7 +81,7 @@ class LabelTracker {
 };
 
 /// The motion of a camera between two frames, found from both supporting planes. Motion within the
-/// plane does not show.
+/// plane cannot be detected.
 struct CameraMotion {
   double turn = 0;   ///< angle between the planes, degrees
   double shift = 0;  ///< change of the distance from the viewpoint, metres

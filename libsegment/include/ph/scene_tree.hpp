@@ -73,13 +73,13 @@ struct SceneSurface {
   friend bool operator==(const SceneSurface&, const SceneSurface&) = default;
 };
 
-/// A point stores its surface in one byte.
+/// The largest number of surfaces, because each point stores its surface in one byte.
 inline constexpr std::size_t kMostSurfaces = 255;
 
 /// The concavity of a flat surface at a range, caused by the sensor's noise.
 struct NoiseAt {
   double range = 0;      ///< distance from the viewpoint, metres
-  double concavity = 0;  ///< the value below which 84 % of the free supporting plane lies
+  double concavity = 0;  ///< the concavity of 84 % of the free supporting plane is below it
 };
 
 /// A box with its own axes.
@@ -110,14 +110,15 @@ struct Segment {
   std::uint32_t label = 0;  ///< 1…k by decreasing number of points
   Index points = 0;
   Index voxels = 0;
-  /// The persistence: the value at which the segment first touches another one, less the value of
+  /// The persistence: the value at which the segment first touches another one, minus the value of
   /// its birth, in metres (paper, supervoxels) or in units of the noise (surface). It is infinite
   /// if the segment touches none. It measures the confidence in the segment.
   double persistence = kInfinity;
   std::uint32_t neighbour = 0;  ///< neighbours.front(); 0: none
   double meets_at = kInfinity;  ///< value of the filtration at which it first touches a neighbour
-  Vec3 centroid{};              ///< mean of its points, without points taken back from the plane
-  Box box;                      ///< axis-aligned box of its points
+  /// Mean of its points, without the points that were at first removed with the plane.
+  Vec3 centroid{};
+  Box box;  ///< axis-aligned box of its points
   /// The tightest box of its points. If a plane was removed, the box stands on it: axes[2] is the
   /// normal of the plane, and axes[0] is the longer side of the smallest rectangle around the
   /// projections of the points onto the plane. Without a plane, the axes are the principal axes,
@@ -193,10 +194,10 @@ struct SceneCut {
   std::vector<std::uint8_t> surface_labels;
 };
 
-/// Makes a coarser or finer cut within milliseconds, without a new segmentation. It determines
-/// again which voxels are near each other, which parts make an object (not paper), which segments
-/// touch, and the properties of each segment; planes, voxels, normals and the tree come from
-/// `scene`. `cut(scene, scene.first_cut)` gives the result of ph::segment::segment.
+/// Makes a coarser or finer cut within milliseconds, without a new segmentation. It determines anew
+/// which voxels are near each other, which parts make an object (not paper), which segments touch,
+/// and the properties of each segment; planes, voxels, normals and the tree come from `scene`.
+/// `cut(scene, scene.first_cut)` gives the result of ph::segment::segment.
 /// @throws Error (usage) on an option out of its range, or a distance beyond the tree's; Error
 ///         (bad_data) if arrays of the scene disagree. All functions below throw the same errors.
 SceneCut cut(const SceneTree& scene, const CutOptions& options,

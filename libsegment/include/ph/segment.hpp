@@ -41,14 +41,14 @@ struct CloudView {
 /// metre.
 struct SegmentOptions {
   Method method = Method::surface;
-  /// Edge of a voxel, metres, > 0. Not given: see voxel_size; method surface takes a larger edge
-  /// where the points are so far apart that voxels of this size would not touch.
+  /// Edge of a voxel, metres, > 0. If not given: see voxel_size; method surface uses a larger edge
+  /// if the points are so far apart that voxels of this size would not touch.
   std::optional<double> voxel = {};
   std::optional<Index> min_size = {};  ///< fewest voxels of a segment, >= 1; see cut
   double max_range = 2.0;        ///< largest distance from the viewpoint, metres; inf: all points
   std::optional<Box> crop = {};  ///< keep only the points inside this box
   bool plane = true;             ///< remove the supporting plane and everything behind it
-  /// The supporting plane of the frame before, with a unit normal. The search starts from it if
+  /// The supporting plane of the previous frame, with a unit normal. The search starts from it if
   /// nearly as many points lie on it now, so that the plane does not jump between frames.
   std::optional<Plane> plane_guess = {};
   /// Half the plane's thickness, metres, > 0; see plane_margin.
@@ -59,11 +59,13 @@ struct SegmentOptions {
   /// is plane_distance everywhere. If a smaller plane_distance is given, it takes precedence.
   double plane_noise = 0.005;
   /// Position of the sensor. By default it is where the pixels' rays of an organised cloud meet, if
-  /// this can be told and differs from the cloud's viewpoint; else it is the cloud's viewpoint.
+  /// this place can be determined and differs from the cloud's viewpoint; otherwise it is the
+  /// cloud's viewpoint.
   std::optional<Vec3> viewpoint = {};
   bool check = true;  ///< compare union-find with the reduction of the boundary matrix
 
-  // For methods surface and supervoxels. For fields without a value, see cut.
+  // Only for methods surface and supervoxels. The default of a member that is not set depends on
+  // the method; see cut().
   std::optional<double> min_persistence = {};  ///< least persistence of a part, >= 0; unit: Segment
   bool objects = true;  ///< surface: join the visible parts of an object; false: keep them apart
   /// The fewest voxels of a part, >= 1. A smaller part joins a neighbouring part.
@@ -140,10 +142,10 @@ struct Segmentation {
 /// threads nor on the order of the points. The pipeline runs on one thread.
 /// @throws Error (usage) on an option out of its range, or voxels so small that neighbours have the
 ///         same coordinates; Error (bad_data) if the length of `xyz` is not a multiple of three, or
-///         does not match rows and columns; Error (cancelled, resource) as `context` asks.
+///         does not match rows and columns; Error (cancelled, resource) as `context` requires.
 Segmentation segment(const CloudView& cloud, const SegmentOptions& options = {},
                      const RunContext& context = default_context());
-/// Segments a cloud as its file holds it. Reads only x, y, z and the viewpoint.
+/// Segments a cloud as it was read from a file. Reads only x, y, z and the viewpoint.
 Segmentation segment(const Cloud& cloud, const SegmentOptions& options = {},
                      const RunContext& context = default_context());
 
@@ -158,10 +160,10 @@ inline std::optional<Meeting> first_meeting(const Segmentation& s, std::uint32_t
 /// distance to the nearest voxel (ph::voxel_image): a bar (b, d) in dimension 1 is a loop that
 /// closes when the voxels have grown by b metres, and is filled when they have grown by d metres,
 /// the radius of the largest ball that passes through it. Bars no longer than a voxel are left out,
-/// because the grid may have made them. Cells belong to an image around the segments. O(volume of
-/// their box).
+/// because the grid may have made them. The cells of the bars belong to an image around the
+/// segments. O(volume of their box).
 /// @throws Error (usage) without labels, or on a label that no segment has; Error (resource,
-///         cancelled) as `context` asks.
+///         cancelled) as `context` requires.
 Barcode signature(const SceneTree& scene, const SceneCut& cut,
                   std::span<const std::uint32_t> labels,
                   const RunContext& context = default_context());

@@ -38,8 +38,8 @@ void Cubical::for_each_cell(int dim, Visit&& visit) const {
   if (dim < 0 || dim > dim_ || cells_ == 0) return;
   const auto& keys = table().keys;
   const auto axes = static_cast<std::size_t>(dim_);
-  // Takes the sets of axes with odd coordinates one after another; the cells of a set come in grid
-  // order.
+  // Visits the possible sets of axes with odd coordinates one after another. The cells of one set
+  // are visited in grid order.
   for (unsigned odd = 0; odd < (1U << dim_); ++odd) {
     if (std::popcount(odd) != dim) continue;
     std::array<std::uint64_t, kMaxDim> at{};
@@ -78,7 +78,7 @@ void Cubical::for_each_facet(int, const Cell& cell, Visit&& visit) const {
     const Axis& axis = axes_[static_cast<std::size_t>(k)];
     const std::uint64_t x = coordinate(cell.index, axis);
     if (x % 2 == 0) continue;
-    // On a circle of one edge both ends are the same vertex and cancel.
+    // On a circle of one edge, both ends are the same vertex and cancel.
     if (axis.length > 2 || !axis.periodic) {
       const std::uint64_t lower = cell.index - axis.stride;
       const std::uint64_t upper =

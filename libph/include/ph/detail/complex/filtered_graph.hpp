@@ -12,12 +12,13 @@
 
 namespace ph {
 
-/// A graph whose vertices and edges have values, as a filtration: it is enough for H0 and the merge
-/// tree, and takes 16 bytes per edge. Vertices and edges of value +infinity never enter. Order:
-/// (value, dimension, vertex number or position of the edge).
+/// A graph whose vertices and edges have values, as a filtration. It is enough for H0 and the merge
+/// tree, and takes 16 bytes per edge. Vertices and edges with the value +infinity never enter.
+/// Order: (value, dimension, vertex number or position of the edge).
 class FilteredGraph {
  public:
-  using Cell = std::uint32_t;  ///< vertex v is v; the edge at position i of the order is size() + i
+  /// Vertex v is cell v; the edge at position i of the order is cell vertex_count() + i.
+  using Cell = std::uint32_t;
 
   /// @param births a value for each vertex 0 … size-1. @param edges in any order; parallel edges
   /// and loops are allowed; ties are broken by position. O(vertices log vertices + edges).

@@ -7,7 +7,7 @@ namespace ph {
 
 /// The cubical complex of an image, cube by cube as in the definition: in the V-construction a cube
 /// enters with its last vertex, in the T-construction with the first top cube around it; a cube
-/// that needs an absent or infinite voxel does not exist.
+/// whose value an absent or infinite voxel decides does not exist.
 ///
 /// A slow alternative to `Cubical`, with which it shares only the checks of its arguments: the
 /// oracle uses it in order to be independent of the code that it checks. It has 2^d cells per

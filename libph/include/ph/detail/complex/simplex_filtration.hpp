@@ -34,9 +34,9 @@ namespace detail {
                                    std::span<const Index> coface, double coface_value);
 }  // namespace detail
 
-/// A base class for a filtration of simplices whose values a function gives: it provides all
-/// members of Filtration, CofacetFiltration and GraphFiltration, which means that every engine for
-/// any filtration runs on it. Derived provides two:
+/// A base class for a filtration of simplices whose values a function computes. It provides all
+/// members of Filtration, CofacetFiltration and GraphFiltration. All engines for any filtration
+/// therefore run on it. Derived provides two members:
 ///
 ///   Index vertex_count() const                                    vertices are 0, 1, …
 ///   double simplex_value(std::span<const Index> vertices) const   value at which a simplex enters
@@ -104,8 +104,8 @@ class SimplexFiltration {
     }
   }
 
-  /// The new vertex ascends from one cofacet to the next; cofacets of equal value therefore come in
-  /// the order of the filtration.
+  /// The number of the new vertex increases from one cofacet to the next; cofacets of equal value
+  /// are therefore visited in the order of the filtration.
   template <class Visit>
   void for_each_cofacet(int dim, const Cell& cell, Visit&& visit) const {
     if (dim >= TopDim) return;

@@ -13,8 +13,8 @@ namespace ph {
 /// A map from the cells of one dimension to 32-bit numbers: an array if the filtration numbers its
 /// cells, otherwise a hash table with linear probing. Allocates through the given resource.
 ///
-/// FlatMap cannot be used, because its keys have 64 bits; a cell may be wider, and has its own
-/// hash.
+/// FlatMap cannot be used, because its keys have 64 bits, whereas a cell may be wider and has its
+/// own hash.
 template <Filtration F>
 class CellMap {
  public:

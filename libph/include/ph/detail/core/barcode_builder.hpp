@@ -44,7 +44,7 @@ class BarcodeBuilder {
   /// True if an engine must report pairs of equal value.
   bool wants_zero_length() const { return min_persistence_ < 0; }
 
-  /// Announces that about `count` bars may come: a hint.
+  /// Announces, as a hint, that about `count` more bars may be added.
   void expect(std::size_t count) {
     require_room(count, 0);
     barcode_.reserve_more(count);
@@ -133,7 +133,7 @@ class BarcodeBuilder {
   /// the budget.
   void require_room(std::size_t bars, std::size_t numbers, std::size_t coefficients = 0,
                     std::size_t voxels = 0) const {
-    constexpr std::size_t little = std::size_t{4} << 20;  // too little to count in any budget
+    constexpr std::size_t little = std::size_t{4} << 20;  // too little to matter in any budget
     const std::size_t moved = barcode_.bytes_moved_for(bars, numbers, coefficients, voxels);
     if (moved > little) context_.memory.require(moved);
   }

@@ -13,7 +13,7 @@
 
 namespace ph {
 
-/// The bytes of a number, low byte first: converts from this machine's order, or to it.
+/// Converts the bytes of a number from this machine's order to low byte first, or back.
 template <std::size_t n>
 std::array<std::byte, n> little_endian(std::array<std::byte, n> bytes) {
   if constexpr (std::endian::native == std::endian::big) std::ranges::reverse(bytes);

@@ -44,12 +44,13 @@ inline constexpr Engine Engine::edge_links{"edge-links"};
 inline constexpr Engine Engine::beta_skeleton{"beta-skeleton"};
 inline constexpr Engine Engine::gradient{"gradient"};
 
-/// The engine with that name or that earlier name ("lens", "arrows", "union_find"), or nothing.
+/// The engine with this name or former name ("lens", "arrows", "union_find"); empty if there is
+/// none.
 std::optional<Engine> engine_named(std::string_view name);
 /// The names of all engines: "auto" comes first, and engines that the program added come last.
 std::vector<std::string_view> engine_names();
 
-/// The form in which a Rips filtration is held while something is computed from it. Each form is
+/// The form in which a Rips filtration is stored while something is computed from it. Each form is
 /// enough for some tasks; `plan` chooses one (ph/persistence.hpp).
 enum class RipsForm : std::uint8_t {
   edges,           ///< all edges up to the threshold: enough for everything
@@ -65,9 +66,9 @@ struct RipsInput;
 struct Task {
   int max_dim = 0;  ///< highest dimension of homology
   Representatives representatives = Representatives::none;
-  bool zero_length = false;  ///< pairs of equal value are wanted as well
+  bool zero_length = false;  ///< pairs of cells of equal value are wanted as well
   bool collapses = false;    ///< an edge collapse is wanted
-  /// True if no sets of voxels are asked for: the bars need chains at most.
+  /// True if no sets of voxels are requested: the bars need chains at most.
   bool wants_no_sets() const { return representatives != Representatives::voxels; }
 };
 
@@ -81,19 +82,19 @@ struct Suitability {
 /// Properties of an engine that hold for every complex.
 struct EngineFacts {
   Engine id;
-  bool goes_by_edges = false;  ///< it looks at vertices and edges only
+  bool goes_by_edges = false;  ///< it uses vertices and edges only
   bool is_oracle = false;      ///< the other engines are checked against it
   bool stops_early = false;    ///< it may stop before it has seen the entire complex
   /// The highest dimension of the cells that it lists for homology up to max_dim, or -1 if it lists
   /// none.
   int (*listed_dim)(int max_dim) = nullptr;
-  /// Bytes that the engine takes for a Rips complex, whatever dimensions are asked for; null if it
-  /// takes as much as the adjacency of the graph.
+  /// Bytes that the engine takes for a Rips complex, whatever dimensions are requested; null if it
+  /// takes as many bytes as the adjacency of the graph.
   double (*rips_bytes)(std::size_t vertices, std::size_t edges) = nullptr;
   /// The forms of a Rips filtration that it accepts, best first; empty if it takes all edges or the
   /// edges of the distinct points.
   std::span<const RipsForm> rips_forms = {};
-  /// Returns the condition that keeps the engine from taking the best of these forms, or an empty
+  /// Returns the condition that prevents the engine from using the best of these forms, or an empty
   /// text if there is none. If null, can_run decides from the edges.
   std::string_view (*rips_obstacle)(const RipsInput&, const Task&) = nullptr;
   /// Returns how well the engine suits a task that it does in the best of these forms; if null,

@@ -5,9 +5,9 @@
 
 namespace ph {
 
-/// A field of coefficients: seven operations. An `Element` is a small value; zero is never stored
-/// in a chain. `from_int` maps an incidence number to the field; `to_int` maps an element to the
-/// integer that the user sees.
+/// A field of coefficients, with seven operations. An `Element` is a small value; zero is never
+/// stored in a chain. `from_int` maps an incidence number to the field; `to_int` maps an element to
+/// the integer that the user sees.
 template <class K>
 concept Field = requires(const K& k, typename K::Element a, typename K::Element b) {
   { k.from_int(1) } -> std::same_as<typename K::Element>;

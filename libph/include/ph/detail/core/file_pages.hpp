@@ -5,14 +5,15 @@
 
 namespace ph {
 
-/// Tells the system that this range of a mapped file is not needed for now: the range leaves the
-/// process's memory and comes back from the file when it is touched. The same happens to bytes that
-/// share a page with its ends. This is a hint. Precondition: the range belongs to a mapped file,
-/// and the mapping is shared or never written to.
+/// Tells the system that this range of a mapped file is not needed for now: the range is dropped
+/// from the process's memory, and is read from the file again when it is touched. The same happens
+/// to bytes that share a page with the ends of the range. The call is only a hint. Precondition:
+/// the range belongs to a mapped file, and the mapping is shared or never written to.
 void forget_file_pages(const void* begin, std::size_t bytes);
 
 /// Memory in a nameless file in the folder for temporary files (TMPDIR): parts that are not in use
-/// can leave the process's memory, see `forget_file_pages`. The bytes are zero at first. Move only.
+/// can be dropped from the process's memory (see `forget_file_pages`). The bytes are zero at first.
+/// Move only.
 class ScratchFile {
  public:
   /// Both constructors throw Error (io) if there is no such folder or no room in it.

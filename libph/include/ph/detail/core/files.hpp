@@ -33,8 +33,8 @@ struct Status {
   std::uint64_t device = 0, inode = 0;  ///< identify a file
 };
 
-/// The status of the file with that name or descriptor. Nothing if it failed; errno is ENOENT if
-/// there is no such file.
+/// The status of the file with that name or descriptor. Empty if the call failed; errno is ENOENT
+/// if there is no such file.
 std::optional<Status> status_of(const std::filesystem::path& path);
 std::optional<Status> status_of(int file);
 
@@ -51,7 +51,7 @@ void pass_bytes(int standard);
 /// True if nothing has been read from the file yet.
 bool is_at_start(int file);
 /// @return the number of bytes read, 0 at the end, -1 if it failed. -1 with EAGAIN means that no
-/// bytes have come yet: ask again. Where the system allows it, the call waits only some
+/// bytes have arrived yet: call again. Where the system allows it, the call waits only a few
 /// milliseconds for bytes.
 std::ptrdiff_t read_some(int file, char* to, std::size_t most);
 /// Maps the file into memory, to be read from beginning to end. @return nullptr if it failed.
@@ -89,7 +89,7 @@ bool sync(int file);
 /// Gives a nameless file an unused name in a folder. @return the name; empty if it failed.
 std::filesystem::path name_in(int file, const std::filesystem::path& folder);
 /// Renames `from` to `to`, and replaces a file that has this name; `from` must be closed. @return
-/// true if it was done.
+/// true on success.
 bool rename(const std::filesystem::path& from, const std::filesystem::path& to);
 /// Waits until a new name is on the disk, if the system supports that.
 void sync_folder(const std::filesystem::path& folder);

@@ -44,10 +44,11 @@ concept FlagFiltration = Filtration<F> && requires(const F& f, std::uint32_t i) 
   /// The triangle spanned by the edge at a position and another vertex; that edge is the last of
   /// the triangle's three edges.
   { f.triangle_cell(i, i) } -> std::same_as<typename F::Cell>;
-  /// The tetrahedron of the edge at a position and two other vertices; that edge is its last one.
+  /// The tetrahedron of the edge at a position and two other vertices; that edge is the last of its
+  /// six edges.
   { f.tetrahedron_cell(i, i, i) } -> std::same_as<typename F::Cell>;
-  /// The simplex of the edge at a position and three other vertices, descending; that edge is its
-  /// last one.
+  /// The simplex of the edge at a position and three other vertices, descending; that edge is the
+  /// last of its ten edges.
   { f.pentachoron_cell(i, std::array<std::uint32_t, 3>()) } -> std::same_as<typename F::Cell>;
   /// The triangle of three vertices, descending, that are joined by edges.
   { f.triangle_cell_of(i, i, i) } -> std::same_as<typename F::Cell>;

@@ -37,7 +37,8 @@ class FlatMap {
     Slot& slot = slot_of(key);
     return slot.key == key ? &slot.value : nullptr;
   }
-  /// The value of a key, newly made if the key was absent, and true if it was absent.
+  /// Returns the value of a key, which is created if the key was absent, and true if the key was
+  /// absent.
   std::pair<Value*, bool> try_emplace(Key key) {
     if (key == kFree) [[unlikely]]
       return {&last_, !std::exchange(has_last_, true)};

@@ -4,8 +4,8 @@
 
 namespace ph {
 
-/// Does the same as std::from_chars for a float or a double, by strtod in the locale "C". For C++
-/// libraries whose from_chars supports only integers.
+/// Does the same as std::from_chars for a float or a double, but uses strtod in the locale "C". It
+/// is needed for C++ libraries whose from_chars supports only integers.
 /// @returns the end of the number, and std::errc{}, invalid_argument or result_out_of_range.
 std::from_chars_result floating_by_strtod(const char* first, const char* last, float& value);
 std::from_chars_result floating_by_strtod(const char* first, const char* last, double& value);

@@ -4,7 +4,7 @@
 
 namespace ph {
 
-/// A size in bytes for people: "1.5 GiB".
+/// A size in bytes in readable form: "1.5 GiB".
 std::string format_size(double bytes);
 
 }  // namespace ph

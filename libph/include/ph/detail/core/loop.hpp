@@ -26,7 +26,7 @@ struct Loop {
   friend bool operator==(const Loop&, const Loop&) = default;
 };
 
-/// The loops to compute for the cycles of H1: shortened, as they are found, or none.
+/// The loops to compute for the cycles of H1: shortened loops, loops as they are found, or none.
 enum class LoopChoice { tight, plain, none };
 
 template <>
@@ -57,8 +57,8 @@ std::size_t bytes_of(std::span<const BarLoops> loops);
 /// the cycle, edge by edge; no walk passes a vertex twice. Over Z/2 no edge is in two walks. The
 /// result depends on the chain alone: a walk begins with its smallest vertex and continues to the
 /// smaller of its two neighbours (Z/2), or in the direction of a positive coefficient (Z/p); walks
-/// are ordered by descending number of steps, then by vertices. O(edges) over Z/2; over Z/p each
-/// edge may add a walk of that length.
+/// are ordered by descending number of steps, then by vertices. O(edges) over Z/2; over Z/p, each
+/// edge may add a walk of O(edges) steps.
 ///
 /// On a periodic axis of one or two voxels, the vertices do not identify an edge. With one voxel, a
 /// walk has one vertex and one step; with two voxels, two edges join the same vertices.

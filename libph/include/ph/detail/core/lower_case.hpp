@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-// Converts only ASCII letters, in every locale; all other bytes stay.
+// Converts only ASCII letters, in every locale; all other bytes stay unchanged.
 namespace ph {
 
 constexpr char to_lower(char c) {

@@ -9,7 +9,7 @@
 
 namespace ph {
 
-/// The memory of the machine in bytes; 0 if the system does not say.
+/// The memory of the machine in bytes; 0 if the system does not report it.
 std::uint64_t physical_memory();
 
 /// Nine tenths of the memory that the machine or the container allows. With this limit, a
@@ -23,8 +23,8 @@ std::size_t machine_memory();
 std::optional<std::uint64_t> control_group_limit(std::istream& memberships,
                                                  const std::string& root);
 
-/// A number in /proc/self/status that is given in kB, such as "VmHWM:"; returned in bytes. Nothing
-/// if the system does not say.
+/// A number in /proc/self/status that is given in kB, such as "VmHWM:"; returned in bytes. Empty if
+/// the system does not report it.
 std::optional<std::uint64_t> status_bytes(std::string_view name);
 
 }  // namespace ph

@@ -13,7 +13,7 @@ struct Member {
 };
 
 /// The members of a struct of options that keywords in Python set without conversion. A
-/// specialisation for each such struct stands beside the struct's definition.
+/// specialisation for each such struct stands next to the struct's definition.
 template <class Options>
 inline constexpr std::tuple<> members_of{};
 

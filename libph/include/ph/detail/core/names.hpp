@@ -15,7 +15,7 @@ struct Named {
 };
 
 /// The values of an enum with their names, in the order of the help. A specialisation for each enum
-/// with names stands beside the enum's definition.
+/// with names stands next to the enum's definition.
 template <class Enum>
 inline constexpr std::array<Named<Enum>, 0> names_of{};
 
@@ -35,7 +35,7 @@ constexpr std::string_view name_of(Enum value) {
   return {};
 }
 
-/// The value of a name; nothing if no value has it.
+/// The value with this name; empty if no value has it.
 template <class Enum>
 constexpr std::optional<Enum> value_named(std::string_view name) {
   for (const Named<Enum>& known : names_of<Enum>)

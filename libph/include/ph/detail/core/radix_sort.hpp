@@ -46,8 +46,8 @@ void sort_few(std::span<T> items, const Precedes& precedes) {
 
 /// Sorts by a double, ascending; equal values keep their order. Values must not be NaN, and all
 /// zeros must have the same sign. Makes two passes of 12 bits each (three passes for many items),
-/// least significant bits first. The passes cover the bits from the highest bit in which two values
-/// differ downwards. This is enough for bytes, 16-bit integers, and float32 numbers of one
+/// least significant bits first. The passes cover the bits downwards from the highest bit in which
+/// two values differ. This is enough for bytes, 16-bit integers, and float32 numbers of one
 /// magnitude. Items that are equal in these bits, usually a few neighbours, are sorted by
 /// comparison.
 /// @param buffer as long as items. @param value_of maps an item to its value.
@@ -58,7 +58,7 @@ template <class T, class ValueOf>
 std::span<T> radix_sort_by_value(std::span<T> items, std::span<T> buffer, ValueOf&& value_of,
                                  const RunContext& context) {
   context.poll();
-  // Below this the histograms cost more than comparisons.
+  // Below this number of items, the histograms take longer than comparisons.
   constexpr std::size_t few = 1024;
   const auto precedes = [&](const T& a, const T& b) { return value_of(a) < value_of(b); };
   if (items.size() < few) {

@@ -6,8 +6,9 @@
 
 namespace ph {
 
-/// Capability: lists the cofacets in a range of keys faster than it lists all of them. A column
-/// under reduction then holds few cofacets that are younger than its pivot; see CoboundaryColumn.
+/// Capability: the filtration lists the cofacets in a range of keys faster than all cofacets. A
+/// column under reduction can then hold only a few cofacets that are younger than its pivot; see
+/// CoboundaryColumn.
 template <class F>
 concept RangeFiltration = CofacetFiltration<F> &&
     requires(const F& f, int dim, const typename F::Cell& cell) {

@@ -9,11 +9,11 @@
 namespace ph::cubical {
 
 /// True if `pair_voxels` can process the image, which must have voxels. An axis counts if it has
-/// more than one voxel or, in the T-construction, is not periodic. With at most two such axes, all
-/// bars come from the two graphs of `pair_voxels`, and the number of voxels is unlimited. With
-/// three axes, `pair_voxels` refuses an image of about 2^31 voxels or more if bars are wanted that
-/// do not come from the graphs. With more axes, these bars require that the image has fewer than
-/// 2^32 cells (2^d per voxel).
+/// more than one voxel or, in the T-construction, is not periodic. With at most two such axes,
+/// `pair_voxels` finds all bars in two graphs, and the number of voxels is unlimited. With three
+/// axes, it refuses an image of about 2^31 voxels or more if bars are wanted that are not found in
+/// the graphs. With more axes, these bars require that the image has fewer than 2^32 cells (2^d per
+/// voxel).
 bool can_pair_voxels(const CubicalImage& grid, int max_dim);
 /// The bytes that `pair_voxels` takes in addition to the image, not counting critical cells and
 /// bars. Precondition: `can_pair_voxels`.

@@ -38,7 +38,7 @@ class PointTree {
 
   std::size_t size() const { return tree_.size(); }
   const Point& point(Position q) const { return points_[q]; }
-  /// The place in the input of each point, by position.
+  /// The place of each point in the input, by the point's position in the tree.
   std::span<const std::uint32_t> places() const { return tree_.rows(); }
 
   Node node_count() const { return tree_.node_count(); }

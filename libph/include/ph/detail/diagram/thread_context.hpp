@@ -8,7 +8,7 @@
 namespace ph::diagram {
 
 /// Contexts for tasks that run on several threads. Each task needs its own context, because a
-/// context reports to one thread only and limits the memory.
+/// context can report to one thread only, and each task has its own share of the memory.
 class ThreadContexts {
  public:
   /// @param tasks largest number of tasks at the same time. @param parent must outlive this object.

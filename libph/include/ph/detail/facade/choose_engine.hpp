@@ -22,11 +22,11 @@ struct EngineChoice {
   std::string_view reason;
 };
 
-/// @throws Error (usage): the engine asked for cannot do the task, or no engine can.
+/// @throws Error (usage): the requested engine cannot do the task, or no engine can.
 [[noreturn]] void refuse(Engine asked, const Task& task);
 
-/// The engine asked for, or the engine that suits the task best.
-/// @throws Error (usage) if the engine asked for cannot do the task.
+/// The requested engine, or the engine that suits the task best.
+/// @throws Error (usage) if the requested engine cannot do the task.
 template <Filtration F>
 EngineChoice<F> choose_engine(const F& f, Engine asked, const Task& task) {
   EngineChoice<F> choice;
@@ -61,8 +61,8 @@ Plan<F> plan_for(const F& f, const Options& options) {
   bool has_incidences = true;
   if constexpr (requires { f.has_incidences(); }) has_incidences = f.has_incidences();
   check_as_it_is(options, has_incidences);
-  // Tries low dimensions before it asks for the top dimension, because the top dimension of a flag
-  // complex takes time and memory to find.
+  // Low dimensions are tried before the top dimension is determined, because this takes time and
+  // memory for a flag complex.
   if (options.max_dim && *options.max_dim <= 3) {
     const EngineChoice<F> choice =
         choose_engine(f, options.engine, task_of(options, *options.max_dim));

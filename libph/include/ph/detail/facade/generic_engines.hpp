@@ -37,7 +37,7 @@ constexpr EngineFacts facts() {
 }
 
 /// True if the engine can do the task. A filtration that holds only points has no cells, which
-/// rules out engines that do not take points.
+/// rules out engines that do not accept points.
 template <class E, Filtration F>
 bool can_run(const F& f, const Task& task) {
   if constexpr (requires { f.points_alone(); }) {

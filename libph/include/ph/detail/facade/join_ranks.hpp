@@ -33,7 +33,7 @@ template <JoinablePart Part>
 std::optional<Part> join_ranks(std::optional<Part> own, Post& post, const RunContext& context) {
   if (!own) return std::nullopt;
   const int rank = post.rank(), parts = own->parts();
-  // Before a step of this width, each remaining rank has at most that many parts, starting with its
+  // Before a step of this width, each remaining rank has at most `width` parts, starting with its
   // own.
   for (int width = 1; width < parts; width *= 2) {
     if (rank % (2 * width) == width) {

@@ -9,8 +9,8 @@
 
 namespace ph {
 
-/// Messages between ranks with a number and a checksum: if one is lost, repeated, out of order or
-/// damaged, the result is an error instead of a wrong answer.
+/// Sends messages with a number and a checksum between ranks. If a message is lost, repeated, out
+/// of order or damaged, the result is an error instead of a wrong answer.
 class Post {
  public:
   explicit Post(Transport& transport) : transport_(transport), sent_(ranks()), received_(ranks()) {}
@@ -18,7 +18,7 @@ class Post {
   int rank() const { return transport_.rank(); }
   int size() const { return transport_.size(); }
   void send(int to, std::span<const std::byte> message);
-  /// @throws Error (io) naming the message that was expected and the message that came.
+  /// @throws Error (io) naming the message that was expected and the message that arrived.
   std::vector<std::byte> receive(int from);
   /// Number of bytes that this rank has sent.
   std::uint64_t bytes_sent() const { return bytes_sent_; }

@@ -34,7 +34,7 @@ inline std::size_t bytes_of(VoxelType type) {
   return with_voxels(type, nullptr, []<class T>(const T*) { return sizeof(T); });
 }
 
-/// The cubical filtration of an image, given by the image itself. An engine that goes voxel by
+/// The cubical filtration of an image, given by the image itself. An engine that works voxel by
 /// voxel and never lists cells needs nothing else. The struct points to voxels, which must outlive
 /// it. NaN marks an absent voxel.
 struct CubicalImage {
@@ -45,7 +45,7 @@ struct CubicalImage {
   bool is_in_file = false;          ///< see ph/detail/core/file_pages.hpp
   bool voxels_are_vertices = true;  ///< V-construction; otherwise the voxels are top cubes (T)
   bool superlevel = false;          ///< values are the values of -f
-  /// Voxels of values above this limit never enter; the limit is below +infinity.
+  /// Voxels with values above this limit never enter; the limit is below +infinity.
   double limit = std::numeric_limits<double>::max();
 
   std::size_t size() const {

@@ -5,7 +5,7 @@
 namespace ph {
 
 /// The JSON members that describe the values of a filtration: weights, samples, squares, superlevel
-/// sets. Empty if there is nothing to say.
+/// sets. Empty if there are none.
 std::string filtration_members(const BarcodeInfo& info, std::string_view between = ", ");
 
 // One function per format; see BarcodeFormat.

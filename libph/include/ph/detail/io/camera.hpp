@@ -64,7 +64,7 @@ struct Camera {
 Camera read_camera(const Input& input);
 Camera read_camera(const std::filesystem::path& path, const RunContext* context = nullptr);
 
-/// A camera with a name.
+/// A model of camera with its name.
 struct CameraPreset {
   std::string_view name;
   Camera camera;            ///< nominal values without lens: each device differs by a few per cent

@@ -24,9 +24,9 @@ struct CloudField {
   std::size_t offset = 0;
 };
 
-/// A point cloud as its file has it: every field of every point, with its bytes untouched, in the
-/// order and organisation of the file. Point i is record i of `data`. A point with a NaN coordinate
-/// is a hole that keeps its place.
+/// A point cloud as its file stores it: every field of every point, with its bytes unchanged, in
+/// the order and organisation of the file. Point i is record i of `data`. A point with a NaN
+/// coordinate is a hole that keeps its place.
 struct Cloud {
   Index width = 0;   ///< columns of an organised cloud; otherwise the number of points
   Index height = 1;  ///< rows of an organised cloud; 1 if it is not organised
@@ -39,7 +39,7 @@ struct Cloud {
   Index size() const { return width * height; }
   bool organised() const { return height > 1; }
   /// @throws Error (bad_data) unless `data` holds width * height records and each record holds its
-  /// fields. All members below throw it as well.
+  /// fields. All members below except `find` throw it as well.
   void check() const;
   const CloudField* find(std::string_view name) const;
   /// Appends a field of zeros to every point. @return the index of the field. Rewrites `data`.
@@ -47,7 +47,7 @@ struct Cloud {
   /// The x, y, z of every point as float32 triples (3 * size() numbers); NaN where the cloud has a
   /// hole. @throws Error (bad_data) if x, y or z is missing, or beyond single precision.
   std::vector<float> xyz() const;
-  /// The colours as packed 0x00RRGGBB, one per point; nothing if the cloud has none.
+  /// The colours as packed 0x00RRGGBB, one per point; empty if the cloud has none.
   std::optional<std::vector<std::uint32_t>> rgb() const;
   /// Sets one number per point in a field of type uint32.
   void set_uint32(std::size_t field, const std::vector<std::uint32_t>& values);

@@ -9,7 +9,8 @@
 namespace ph::detail {
 
 /// Walks through a JSON text once, value by value, without building a tree. Every function throws
-/// Error (bad_data) "name:line:column: …" if the text is not JSON or not what was asked for.
+/// Error (bad_data) "name:line:column: …" if the text is not JSON, or not what the function
+/// requires.
 class JsonCursor {
  public:
   explicit JsonCursor(const Input& input) : text_(input.text()), input_(input) {}

@@ -47,7 +47,7 @@ class OutputFile {
   void write(std::span<const std::byte> bytes) {
     write(std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
   }
-  /// Passes on everything written until now, which lets a program that follows the output read it.
+  /// Passes on everything written so far; a program that follows the output can then read it.
   /// @throws Error (io), BrokenPipe.
   void flush();
   /// Waits until the bytes written are on the disk; it does nothing if the system cannot tell.

@@ -36,7 +36,7 @@ struct Raster {
 Raster read_png(const Input& input);
 Raster read_png(const std::filesystem::path& path, const RunContext* context = nullptr);
 
-/// Writes 8 or 16 bits per sample, as the raster says. @throws Error (bad_data) if the number of
+/// Writes 8 or 16 bits per sample, as the raster states. @throws Error (bad_data) if the number of
 /// samples does not match the size; Error (io) if the stream fails.
 void write_png(std::ostream& out, const Raster& raster);
 

@@ -27,8 +27,8 @@ namespace ph {
 /// "...".
 std::string printable(std::string_view bytes, std::size_t max_bytes = 4096);
 
-/// Splits "FILE.npz:NAME" or "FILE.ply:NAME" into the file and the part of it that is asked for.
-/// Any other path, and any path that exists under its full name, stands for the file alone.
+/// Splits "FILE.npz:NAME" or "FILE.ply:NAME" into the file and the requested part of it. Any other
+/// path, and any path that exists under its full name, stands for the file alone.
 std::pair<std::filesystem::path, std::string> split_member(const std::filesystem::path& path);
 
 /// The problem at one place of an input. Empty parts are left out of the message.
@@ -40,13 +40,14 @@ struct Fault {
 };
 
 /// All bytes of a file, of standard input ("-") or of a FIFO, with the name used in messages.
-/// Regular files above 16 MiB are mapped (no other program may shorten them meanwhile), smaller
-/// ones are copied; streams grow within the memory budget of the run. Input compressed with gzip is
-/// unpacked: its extension is the one before ".gz", and lines and bytes are counted in the unpacked
-/// text. Move only.
+/// Regular files above 16 MiB are mapped (no other program may shorten them meanwhile); smaller
+/// files are copied. Streams are read into memory, within the memory budget of the run. Input
+/// compressed with gzip is unpacked: its extension is the extension before ".gz", and lines and
+/// bytes are counted in the unpacked text. Move only.
 class Input {
  public:
-  /// The treatment of a regular file that exceeds the memory budget of the run, or unpacks to more.
+  /// The treatment of a regular file that exceeds the memory budget of the run, before or after it
+  /// is unpacked.
   enum class Excess {
     refused,
     stays_in_file,  ///< mapped (unpacked data in a temporary file), not counted
@@ -57,7 +58,7 @@ class Input {
   /// @param context its memory budget limits a stream, and its stop token is polled; it must
   ///        outlive the input. Without a context, a stream may take half of the machine's memory.
   /// @throws Error (no_input) if the file is missing, unreadable or a directory; Error (io) if
-  ///         reading breaks off; Error (resource) if a stream or the unpacked data exceed the
+  ///         reading fails partway; Error (resource) if a stream or the unpacked data exceed the
   ///         budget; Error (bad_data) if compressed data are damaged or expand beyond reason, or if
   ///         a stream begins with 1 MiB of NUL bytes, as /dev/zero does.
   static Input open(const std::filesystem::path& path, const RunContext* context = nullptr,
@@ -82,11 +83,11 @@ class Input {
   std::size_t size() const { return text_.size(); }
   const std::string& name() const { return name_; }            ///< the printable name
   const std::string& extension() const { return extension_; }  ///< in lower case, with its dot
-  /// The part of an archive or of a mesh that was asked for; empty if none was.
+  /// The part of an archive or of a mesh that was requested; empty if none was.
   const std::string& member() const { return member_; }
   const RunContext* context() const { return context_; }
-  /// True if the input exceeds the memory budget. Such an input should be read block by block, see
-  /// `done_with`.
+  /// True if the input exceeds the memory budget. Such an input should be read block by block (see
+  /// `done_with`).
   bool stays_in_file() const;
   /// Counts the memory of the input from now on, for readers that need the input as a whole.
   /// @throws Error (resource) if it does not fit.
@@ -165,7 +166,7 @@ class TextLines {
   std::string_view line_;
   std::size_t number_ = 0;
   std::size_t polled_ = 0;  // offset at which the stop token was last polled
-  char tab_ = '\t';         // a second blank character beside ' '
+  char tab_ = '\t';         // a second blank character in addition to ' '
 };
 
 /// The names in a header line: a line without numbers that does not consist of missing values only.
@@ -194,8 +195,8 @@ struct CellHints {
 /// may stand between double quotes; separators inside them belong to the cell.
 class Cells {
  public:
-  /// @param separator the separator after skipped cells, which may hold blanks unless it is a
-  ///        blank.
+  /// @param separator the separator after skipped cells, which may hold blanks unless the separator
+  ///        is a blank.
   explicit Cells(const TextLines& lines, CellHints hints = {}, char separator = ' ')
       : lines_(&lines),
         hints_(std::move(hints)),
@@ -241,7 +242,7 @@ class Cells {
   CellHints hints_;
   const char* position_ = nullptr;
   const char* end_ = nullptr;
-  char tab_;            // a second blank character beside ' '
+  char tab_;            // a second blank character in addition to ' '
   char skipped_to_;     // separator of skipped cells
   char separator_ = 0;  // 0 until the first separator is seen
 };

@@ -45,9 +45,9 @@ std::optional<double> number_in(std::string_view cell);
 bool is_missing_value(std::string_view cell);
 /// A cell without the double quotes around it.
 std::string_view without_quotes(std::string_view cell);
-/// The cells of a line of names, without quotes around the cells, an empty last cell, or two
-/// slashes before the first cell.
-/// @param names_only return nothing if a cell is a number or empty.
+/// The cells of a line of names. Quotes around cells, an empty last cell, and two slashes before
+/// the first cell are removed.
+/// @param names_only the result is empty if a cell is a number or empty.
 /// @param keeps_tabs each tab separates two cells; otherwise any number of tabs does.
 std::vector<std::string> header_cells(std::string_view line, bool names_only,
                                       bool keeps_tabs = false);
@@ -64,8 +64,8 @@ CellHints cell_hints(const ReadOptions& options);
 
 /// The columns that a list of names and numbers from 1 ("x", "3", "2-5") stands for, ascending.
 /// @param header may be empty. @throws Error (usage) on a column that does not exist, is repeated,
-/// is the name of several columns, or is the name of one column and the number of another: "2-2"
-/// has only one meaning.
+/// is the name of several columns, or is the name of one column and the number of another. (The
+/// range "2-2" can only mean a number.)
 std::vector<std::size_t> chosen_columns(const std::vector<std::string>& wanted,
                                         const std::vector<std::string>& header, std::size_t width,
                                         const Input& input);
@@ -92,8 +92,8 @@ constexpr double kRounding = 1e-6;
 /// compatible with everything.
 SquareKind kind_of_square(std::span<const double> block, std::size_t side);
 
-/// True if more than half of the entries off the diagonal are 0: this happens in pictures, never in
-/// distances.
+/// True if more than half of the entries off the diagonal are 0: this occurs in pictures, but never
+/// in distances.
 bool is_mostly_zero(std::span<const double> block, std::size_t side);
 
 /// The shape of a table's rows, as far as they were read.
@@ -111,11 +111,11 @@ struct ArrayGuess {
   ArrayMeaning meaning = ArrayMeaning::image;
   Message note;  ///< empty if there was no choice
 };
-/// The content of an NPY array if options.array does not decide.
+/// The meaning of an NPY array if options.array does not state it.
 /// @throws Error (bad_data) on an array that looks like correlations, because no meaning is safe.
 ArrayGuess guess_array(const Input& input, const ReadOptions& options);
 
-/// The format by a magic number or an extension; nothing for a text of numbers.
+/// The format that a magic number or an extension indicates; empty for a text of numbers.
 std::optional<Format> format_by_content(const Input& input);
 
 /// The content of a text of numbers without a magic number.
@@ -138,7 +138,7 @@ std::optional<ForeignKind> foreign_kind(std::string_view bytes);
 /// @throws Error (usage) if options.columns were given for an input without columns to choose.
 void refuse_columns(const ReadOptions& options, std::string_view found);
 
-/// The option that asks for a square matrix, for a message; empty if there is none.
+/// The option that requires a square matrix, for a message; empty if there is none.
 std::string matrix_option(const ReadOptions& options);
 /// The settings that read a square matrix as distances, for a message.
 std::string way_to_distances(bool has_zero_diagonal);

@@ -14,7 +14,7 @@ Error not_finite(Index point, Index coordinate, double found);
 
 /// A finite set with a dissimilarity: symmetric, zero on the diagonal, never negative or NaN;
 /// +infinity means that two points are never joined. The triangle inequality is not required.
-/// Several threads may ask for distances at once. Points alone are not a metric: they need a
+/// Several threads may request distances at once. Points alone are not a metric: they need a
 /// distance.
 template <class M>
 concept Metric =
@@ -23,7 +23,7 @@ concept Metric =
   { m(i, j) } -> std::convertible_to<double>;
 };
 
-/// Any metric behind one type, which lets code that uses it be compiled once. It keeps a reference
+/// Any metric behind one type. Code that uses this type is compiled only once. It keeps a reference
 /// to the metric.
 class AnyMetric {
  public:

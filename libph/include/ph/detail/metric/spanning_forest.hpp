@@ -20,10 +20,10 @@ namespace ph {
 // up to any distance, and therefore the same H0 pairs, cell by cell; see
 // docs/explanation/engines/spanning-forest.md.
 //
-// Edges come with u > v, in any order; fewer than 2^32 - 1 points.
+// The functions return edges with u > v, in any order. There must be fewer than 2^32 - 1 points.
 
-/// Uses Prim's algorithm (1957): each pair is looked at once, and only edges of the forest are
-/// kept. O(n^2) time, O(n) memory.
+/// Uses Prim's algorithm (1957): each pair is examined once, and only edges of the forest are kept.
+/// O(n^2) time, O(n) memory.
 /// @param distance_of(i, j) for i > j: >= 0 or infinite.
 template <class DistanceOf>
 FlagEdges spanning_forest(Index size, DistanceOf&& distance_of, double limit,
@@ -64,7 +64,7 @@ FlagEdges spanning_forest(Index size, DistanceOf&& distance_of, double limit,
   return forest;
 }
 
-/// True if `spanning_forest` of points is faster than a look at each pair.
+/// True if `spanning_forest` of points is faster than examining each pair.
 bool has_fast_spanning_forest(PointsView points, PointDistance distance);
 
 /// For points: Borůvka's algorithm (1926) with a k-d tree that finds the nearest point of another

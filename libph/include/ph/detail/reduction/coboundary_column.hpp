@@ -19,7 +19,7 @@ namespace ph {
 ///
 /// Over a RangeFiltration the column holds only the cofacets up to a key, the limit. When all of
 /// them are gone, the limit rises: the cofacets up to the next limit are listed from the cell and
-/// the chain. Most cofacets are younger than the final pivot and never enter the column; see
+/// the chain. Most cofacets are younger than the final pivot and are never put into the column; see
 /// docs/explanation/engines/cohomology.md.
 template <CofacetFiltration F, Field K>
 class CoboundaryColumn {

@@ -30,7 +30,7 @@ namespace ph {
 ///
 /// Several threads reduce columns at the same time, see PivotTable. The pairs do not depend on the
 /// number of threads: every reduction that adds younger columns to older ones has the same outcome.
-/// The cochains may depend on that number; if cocycles are asked for, there is one thread.
+/// The cochains may depend on that number; if cocycles are requested, only one thread works.
 template <CofacetFiltration F, Field K>
 class CohomologyReduction {
  public:

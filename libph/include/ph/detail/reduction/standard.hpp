@@ -14,9 +14,9 @@ namespace ph {
 
 /// THE ORACLE. Persistent homology as in the textbook (Edelsbrunner & Harer, Computational
 /// Topology, chapter VII.1; over a field: Zomorodian & Carlsson, Computing Persistent Homology):
-/// write down the boundary matrix, reduce its columns from left to right, read off the pairs. This
-/// engine shares no code with the other engines and is never optimised; the others are right if
-/// they agree with it.
+/// write down the boundary matrix, reduce its columns from left to right, and read off the pairs.
+/// This engine shares no code with the other engines and is never optimised; the others are right
+/// if they agree with it.
 struct StandardEngine {
   static constexpr Engine id = Engine::standard;
   template <Filtration F>

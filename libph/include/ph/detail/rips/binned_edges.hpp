@@ -24,7 +24,7 @@ class BinnedEdges {
   /// @param edges sorted by value; edges of equal value may be in any order.
   explicit BinnedEdges(FlagEdges&& edges);
   /// @param ends the end of each bin in `edges`, ascending. @param shared_bits the values of a bin
-  /// agree in their bits from this one up.
+  /// agree in all bits from this bit up.
   BinnedEdges(FlagEdges&& edges, std::pmr::vector<std::size_t>&& ends, int shared_bits,
               const RunContext& context);
 

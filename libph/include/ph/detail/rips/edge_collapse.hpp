@@ -27,8 +27,8 @@ enum class CollapseLayout {
 /// Each edge kept is an edge of `graph`, at its value or at a later value that occurs in `graph`;
 /// vertices, their names and the threshold are the same. Among edges of equal value, edges that
 /// were moved to that value come first. As a result, the cells that an engine reports for a bar of
-/// positive length have the diameter stated by the bar, and its cycles are born and die in the flag
-/// complex of `graph` at those values.
+/// positive length have its birth and death as their diameters, and its cycles are born and die in
+/// the flag complex of `graph` at those values.
 ///
 /// Takes collapse_bytes() and up to 64 bytes per edge kept, 16 of which remain.
 /// @throws Error (cancelled) on a stop request; Error (resource) beyond the memory limit.

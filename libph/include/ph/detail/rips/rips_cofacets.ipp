@@ -9,9 +9,9 @@ template <class Visit>
 void RipsFiltration<Layout, Words>::for_each_cofacet_within(int dim, const Cell& cell, Key first,
                                                             Key last, Visit&& visit) const {
   if (cell.key > last) return;
-  // The new vertex w ascends, and with it the cofacet's vertices: among cofacets of equal key the
-  // first visited is the oldest. `slot` is w's place among the vertices: the vertices in lower
-  // slots are smaller.
+  // Cofacets are visited by ascending new vertex w, and therefore in the order of their vertices:
+  // among cofacets of equal key, the first one is the oldest. `slot` is the place of w among the
+  // vertices: the vertices in lower slots are smaller.
   const int count = dim + 1;
   std::array<std::uint32_t, kMostVertices + 1> vertices;
   for (int slot = 0; slot < count; ++slot)
@@ -80,7 +80,7 @@ void RipsFiltration<Layout, Words>::for_each_cofacet_within(int dim, const Cell&
 template <RipsLayout Layout, int Words>
 auto RipsFiltration<Layout, Words>::horizon(Key key) const -> Key {
   // The share was chosen by measurement, see docs/explanation/engines/cohomology.md. Without a
-  // matrix there is no limit, because merging the lists of neighbours again takes longer than a
+  // matrix, there is no limit: merging the lists of neighbours again would take more time than a
   // limit saves.
   constexpr Key share = 16;
   constexpr Key no_limit = std::numeric_limits<Key>::max();

@@ -114,7 +114,7 @@ class RipsGraph {
   /// All edges, in order.
   std::span<const FlagEdge> edges() const { return binned_edges().sorted(); }
   /// The edges, for callers that may not need all of them in order. @throws Error (usage) if only
-  /// points are held; so do the other members that ask for edges.
+  /// points are held; so do the other members that need edges.
   const BinnedEdges& binned_edges() const {
     require_edges();
     return edges_;
@@ -126,8 +126,8 @@ class RipsGraph {
   bool is_dense() const {
     return RipsAdjacency::is_dense(static_cast<std::size_t>(size_), edge_count());
   }
-  /// The neighbours of each vertex; made when a thread first asks for them, because engines that go
-  /// edge by edge do not need them.
+  /// The neighbours of each vertex. They are made at the first call, because engines that work edge
+  /// by edge do not need them.
   const RipsAdjacency& adjacency() const {
     if (const RipsAdjacency* made = lazy_->made.load(std::memory_order_acquire)) return *made;
     require_edges();
@@ -192,8 +192,9 @@ RipsGraph RipsGraph::of_metric(const M& metric, std::optional<double> threshold,
                                const RunContext& context, const VertexWeights& weights) {
   const Index n = metric.size();
   check_arguments(n, threshold);
-  // The first pass finds the enclosing radius and the distribution of the distances, the second
-  // keeps the distances up to the limit. Each distance is evaluated twice instead of being stored.
+  // The first pass finds the enclosing radius and the distribution of the distances, and the second
+  // pass keeps the distances up to the limit. Each distance is evaluated twice instead of being
+  // stored.
   const RowDistances<M> distances(metric, &context.memory);
   const std::size_t ranges = range_count(n, context);
   const bool is_weighted = !weights.births().empty();

@@ -20,8 +20,9 @@ class RipsVertices {
   /// points.
   /// @param births one per point; if empty, all are 0. A point born beyond the threshold never
   ///        enters.
-  /// @throws Error (usage) if `chosen` is not ascending below `size` or there is not one birth per
-  /// point; Error (bad_data) on a birth that is negative, infinite or NaN.
+  /// @throws Error (usage) if the numbers in `chosen` do not ascend or are not below `size`, or if
+  /// there is not one birth per point; Error (bad_data) on a birth that is negative, infinite or
+  /// NaN.
   RipsVertices(Index size, std::span<const std::uint32_t> chosen, std::span<const double> births,
                WeightExponent exponent, std::optional<double> threshold, const RunContext& context);
 

@@ -15,15 +15,15 @@ namespace ph {
 
 /// Sparse Rips filtrations (Sheehy, Linear-size approximations to the Vietoris-Rips filtration,
 /// 2013), with balls that grow as in Cavanna, Jahanseir and Sheehy (A geometric perspective on
-/// sparse filtrations, 2015). Each ball stops growing at a size in proportion to the insertion
-/// radius of its point in a greedy permutation; an edge enters when its two balls meet. Edges that
-/// would enter after the smaller ball lies well inside other balls are left out. The result is a
-/// flag complex: the edges determine all simplices.
+/// sparse filtrations, 2015). Each ball stops growing at a size that is proportional to the
+/// insertion radius of its point in a greedy permutation; an edge enters when its two balls meet.
+/// Edges that would enter after the smaller ball lies well inside other balls are left out. The
+/// result is a flag complex: the edges determine all simplices.
 ///
 /// If the triangle inequality holds, the bars can be matched with the bars of the Rips filtration
-/// such that the bars of the sparse filtration are born and die at the same value or later, by a
-/// factor of at most 1 + epsilon; only bars [b, d) with d <= (1 + epsilon) b, of either filtration,
-/// are left unmatched. For a proof see docs/explanation/approximation.md.
+/// such that each bar of the sparse filtration is born and dies no earlier than its partner, and
+/// later by a factor of at most 1 + epsilon; only bars [b, d) with d <= (1 + epsilon) b, of either
+/// filtration, are left unmatched. For a proof see docs/explanation/approximation.md.
 class SparseRips {
  public:
   /// @throws Error (usage) unless `epsilon` is a finite number above 0.

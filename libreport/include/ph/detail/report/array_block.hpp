@@ -24,7 +24,7 @@ concept ArrayNumber = std::same_as<T, std::uint8_t> || std::same_as<T, std::int8
 struct ArrayForm {
   /// Sizes of the axes, the last one fastest; empty: one axis.
   std::vector<std::size_t> shape = {};
-  bool delta = false;  ///< store differences from the row before (integers only)
+  bool delta = false;  ///< store differences from the previous row (integers only)
   /// One offset and scale, or one per column: a number means offset + scale * stored. If both are
   /// empty, the stored number is the number itself.
   std::vector<double> offset = {}, scale = {};
@@ -40,8 +40,9 @@ struct RawArray {
 };
 
 /// Writes an array as docs/reference/report-format.md describes: filters, zlib, base64, in an
-/// element of its own. Numbers of more than one byte are stored as planes. Beside the array, this
-/// takes constant memory; for an array in a file, at most one block is in memory.
+/// element of its own. Numbers of more than one byte are stored as planes. In addition to the
+/// array, this takes constant memory. Of an array in a file, at most one block is in memory at a
+/// time.
 /// @throws Error (cancelled); std::bad_alloc; errors of `sink`.
 void write_array(const Sink& sink, const RawArray& array, const ArrayForm& form,
                  const RunContext& context);

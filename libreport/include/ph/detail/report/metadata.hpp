@@ -26,7 +26,7 @@ struct CloudMeta {
   std::string unit;
   std::optional<std::array<double, 3>> viewpoint = {};  ///< position of the sensor
   std::optional<std::array<double, 3>> up = {};
-  std::string metric = {};  ///< "euclidean": the page may find the edges of a Rips complex
+  std::string metric = {};  ///< "euclidean": the page may find the edges of a Rips complex itself
   std::optional<double> edges_below = {};  ///< some edges at or above this value are missing
   /// Some triangles at or above this value are missing.
   std::optional<double> triangles_below = {};

@@ -4,7 +4,7 @@
 
 namespace ph::report {
 
-/// The marker for the payload, which the template has exactly once.
+/// The marker for the payload; the template contains it exactly once.
 inline constexpr std::string_view kPayloadMarker = "<!--ph:payload-->";
 
 /// The page without its payload, as viewer/ builds it; empty if this build has none.

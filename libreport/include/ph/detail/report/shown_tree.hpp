@@ -13,7 +13,8 @@ namespace ph::report {
 
 inline constexpr std::uint32_t kNone = UINT32_MAX;  ///< stands for no leaf or no bar
 
-/// A larger image has no tree, which would need a list of all cells.
+/// The largest image with a tree. A larger image has no tree, because the tree would need a list of
+/// all cells.
 inline constexpr std::size_t kMostTreeVoxels = 1 << 22;
 
 /// The rule that decides which merges a cut performs.
@@ -33,8 +34,8 @@ struct TreeMeta {
   std::vector<std::string> command;  ///< command for another cut, "{cut}" standing for its value
 };
 
-/// A merge tree contracted to what cuts can separate: vertices that are together in every cut form
-/// one leaf. Leaves are numbered by their smallest vertex.
+/// A merge tree in which all vertices that no cut can separate are contracted to one leaf. Leaves
+/// are numbered by their smallest vertex.
 struct ContractedTree {
   std::vector<std::uint32_t> leaf_of;  ///< leaf of each vertex; kNone if it never enters
   std::vector<double> leaf_birth;      ///< for each leaf, the least birth of its vertices

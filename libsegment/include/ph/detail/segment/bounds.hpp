@@ -12,9 +12,9 @@ namespace ph::segment {
 inline constexpr double kLeastShareOnSurface = 0.85;
 
 /// The components of a cut that bound the scene and are not objects. A wall is flat, is not
-/// parallel to the support, and the frame shows nothing behind its plane; behind the face of a box,
-/// the frame shows what the box stands on. A further support is flat, parallel to the support, and
-/// larger than anything one can lift.
+/// parallel to the support, and the frame shows nothing behind its plane. In contrast, behind the
+/// plane of a box's face, the frame shows what the box stands on. A further support is flat,
+/// parallel to the support, and larger than anything one can lift.
 /// @param cloud all points count, even points out of range. @param component_of for each vertex,
 /// one of the vertices of its component. @param min_size fewest voxels of an examined component.
 /// O(voxels + points for each flat component that is not parallel to the support).

@@ -23,7 +23,8 @@ std::string cloud_bytes(Cloud cloud, CloudFormat format);
 ///
 /// * Normals are `normal_x normal_y normal_z` in PCD, and `nx ny nz` in PLY.
 /// * Colours are one number `rgba` in PCD. Colours of one byte per channel become that number;
-///   colours of other types stay beside it. (`write_ply` splits the number into channels again.)
+///   colours of other types keep their own fields. (`write_ply` splits the number into channels
+///   again.)
 /// * Padding (`_`) is left out, because PCL does not count it in compressed files.
 /// * Coordinates and normals of PCD are in single precision, the only precision in which PCL and
 ///   Open3D recognise them. Doubles are rounded if all coordinates are within

@@ -10,8 +10,8 @@
 
 namespace ph::segment {
 
-/// The segments that look adjacent to a viewer: neighbours[i] lists the segments (labels less one)
-/// beside segment i, ascending. In an image, these are segments less than five pixels apart, even
+/// The segments that look adjacent to a viewer: neighbours[i] lists the segments (labels minus one)
+/// next to segment i, ascending. In an image, these are segments less than five pixels apart, even
 /// if one stands far behind the other; in a cloud without rows, they are touching segments
 /// (Segment::neighbours).
 std::vector<std::vector<std::size_t>> neighbouring_segments(const Cloud& cloud,
@@ -23,7 +23,7 @@ std::vector<std::vector<std::size_t>> neighbouring_segments(const Cloud& cloud,
 std::vector<std::uint32_t> segment_colours(const std::vector<std::vector<std::size_t>>& neighbours);
 
 /// Colours from the same palette, chosen by the numbers of the objects (from 1): an object keeps
-/// its colour in a stream.
+/// its colour throughout a stream.
 std::vector<std::uint32_t> object_colours(std::span<const std::uint32_t> numbers);
 
 /// The colours of the segments in pictures and reports: chosen by number if `numbers` are given,

@@ -12,7 +12,7 @@
 
 namespace ph::segment {
 
-/// The function that receives notes on anything that is not obvious.
+/// A function that receives notes on assumptions that the user should know.
 using Note = std::function<void(const Message&)>;
 
 /// The camera with this name, with a note that its values are nominal; empty if no camera has this

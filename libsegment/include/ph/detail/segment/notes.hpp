@@ -14,7 +14,7 @@ struct DepthSource {
   Setting setting;  ///< Setting::intrinsics or Setting::camera, whichever the camera came from
 };
 
-/// Warnings that a user should know before trusting the result, one line each: the difference that
+/// Warnings that a user should read before trusting the result, one line each: the difference that
 /// the check found, a missing plane, implausible units or an implausible camera.
 /// @param cloud null: a stored tree was cut. @param depth null: the input was not a depth image.
 std::vector<Message> notes(const Segmentation& segmentation, const SegmentOptions& options,
