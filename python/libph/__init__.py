@@ -11,22 +11,22 @@ Computations release the GIL and stop on Ctrl-C. All of them accept these keywor
 threads : int
     How many threads to use. Default: one per core. Results do not depend on this number.
 memory_limit : int or str
-    The most memory that the computation may take, in bytes or as "4GiB"; beyond it, the computation
-    ends in a `MemoryLimitError`. Default: 90 % of the free memory of the machine or of the control
-    group.
+    The largest amount of memory that the computation may take, in bytes or as text ("4GiB"). If the
+    computation needs more, it ends with a `MemoryLimitError`. Default: 90 % of the free memory of
+    the machine or of the control group.
 progress : bool or callable
-    True shows a bar if tqdm is installed. A callable receives ``(stage, done, total)`` at most ten
-    times per second; `total` is 0 if it is unknown. An exception that it raises stops the
+    True shows a progress bar if tqdm is installed. A callable receives ``(stage, done, total)`` at
+    most ten times per second; `total` is 0 if it is unknown. An exception that it raises stops the
     computation.
 timeout : float
-    Seconds after which the computation ends in a `Timeout`.
+    Seconds after which the computation ends with a `Timeout`.
 stop : threading.Event
-    Once it is set, the computation ends in `Cancelled`.
+    Once it is set, the computation ends with `Cancelled`.
 
 The data must not change while a computation runs. `limits` sets defaults for a block of code.
 
-Three modules need other packages and are loaded on first use: `libph.sklearn`, `libph.torch`, and
-`libph.compat`, which offers the interfaces of other packages.
+Three modules need additional packages and are loaded on first use: `libph.sklearn`, `libph.torch`,
+and `libph.compat`, which offers the interfaces of other packages.
 """
 import typing as _typing
 

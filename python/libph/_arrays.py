@@ -54,7 +54,7 @@ def sparse_entries(matrix: Any, name: str = "X"
 
 
 def as_array(data: Any, name: str) -> NDArray[Any]:
-    """The data as an array of real numbers, without a copy if the memory already holds one.
+    """The data as an array of real numbers; data that already are such an array are not copied.
 
     Accepts arrays, objects with the buffer protocol, `__array__` or DLPack, and nested lists.
     """
@@ -110,7 +110,7 @@ def _ragged(data: Any) -> str:
 
 
 def _without_mask(data: Any, name: str) -> NDArray[Any]:
-    """Masked numbers become NaN."""
+    """The numbers of a masked array; masked numbers become NaN."""
     numbers: NDArray[Any] = _MASKED.getdata(data)
     if not _MASKED.is_masked(data):
         return numbers
@@ -179,8 +179,8 @@ def as_float64(array: NDArray[Any], name: str, mask: NDArray[np.bool_] | None = 
 
 
 def new_array(shape: int | tuple[int, ...]) -> NDArray[np.float64]:
-    """A new array of float64 to be filled in. An array that does not fit into memory is refused,
-    because the system would promise the memory anyway."""
+    """A new array of float64 to be filled in. An array that does not fit into memory is refused in
+    advance, because the system promises more memory than it has."""
     needed = math.prod(shape if isinstance(shape, tuple) else (shape,)) * 8
     if needed > _LARGE and needed > _core.memory_left():
         raise MemoryLimitError(f"found a result of shape {shape}, whose {needed} bytes would "

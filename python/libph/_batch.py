@@ -23,8 +23,8 @@ _REQUESTS: dict[Any, Callable[[dict[str, Any]], Request]] = {
 def batch(function: Callable[..., Barcode], inputs: Iterable[Any], **options: Any) -> list[Barcode]:
     """Computes the barcodes of many inputs, several at a time.
 
-    Gives the same as ``[function(x, **options) for x in inputs]``, but faster: each thread takes
-    one input after the other, whereas separate calls would start threads for each input.
+    Returns the same as ``[function(x, **options) for x in inputs]``, but faster: each thread takes
+    one input after another, whereas separate calls would start threads for each input.
 
     Parameters
     ----------

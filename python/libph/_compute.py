@@ -67,25 +67,26 @@ def rips(X: Any, *, max_dim: int | None = 1, min_dim: int = 0, threshold: float 
         The exponent that governs how a ball grows after the birth of its point. Default: 1 for
         "dtm", inf otherwise.
     subsample : int, optional
-        Number of points to keep. Each is the farthest from the points before it.
+        Number of points to keep. Each point is the one farthest from the points chosen before it.
     subsample_radius : float, optional
         Points are added to the subsample until every point is at most this far from one of them.
     approximation : float, optional
-        Epsilon of a sparse Rips filtration: births and deaths come later by a factor of at most 1 +
+        Epsilon of a sparse Rips filtration: births and deaths are later by a factor of at most 1 +
         epsilon.
     merge_equal_points : bool, optional
         If True, equal points become one vertex. Default: True if this keeps all bars of positive
         length.
     device : {"cpu", "gpu"}
         The device that finds the components of points with Euclidean distances (``max_dim=0``); the
-        result is the same. "gpu" is an NVIDIA GPU, if libph was built with support for it.
+        result does not depend on it. "gpu" is an NVIDIA GPU, if libph was built with support for
+        it.
     collapse : {"auto", True, False}
         If True, edges are collapsed first, which does not change the bars.
     representatives : {None, "cycles", "cocycles"}
         The kind of chains to compute with the bars; see `Barcode.representative`.
     loops : {None, "tight", "plain", "none"}
-        How cycles of H1 are split into loops. Default: "tight", which shortens loops as far as
-        this takes little time.
+        How cycles of H1 are split into loops. Default: "tight", which shortens loops as far as is
+        possible in little time.
     min_persistence : float
         Bars with death - birth <= this value are left out. A negative value keeps all bars.
     cells : bool
@@ -148,7 +149,7 @@ def alpha(X: Any, *, values: str = "alpha", squared: bool | None = None,
     Parameters
     ----------
     X : array_like
-        Points of R^1, R^2 or R^3, one per row. Duplicates, and points in a common plane or on a
+        Points in R^1, R^2 or R^3, one per row. Duplicates, and points in a common plane or on a
         common line, are accepted.
     values : {"alpha", "delaunay-cech", "delaunay-rips"}
         When a simplex enters. "alpha": as above. "delaunay-cech": when the balls around all its
@@ -158,14 +159,14 @@ def alpha(X: Any, *, values: str = "alpha", squared: bool | None = None,
         If True, values are squares of radii, as in GUDHI. Default: True only for points with
         weights.
     weights : array_like, optional
-        The square of each ball's initial radius, such as that of an atom or a grain.
+        The square of each ball's initial radius, for example the radius of an atom or a grain.
         ``bars.meta["hidden"]`` lists the points whose balls are hidden in others.
     period : float or sequence of float, optional
         For a periodic space such as a crystal or a simulation box: the length after which each axis
-        repeats, one for all axes or one per axis; 0 or None for an axis that does not. Only for
-        ``values="alpha"``.
+        repeats, one for all axes or one per axis; 0 or None for an axis that does not repeat. Only
+        for ``values="alpha"``.
     threshold : float, optional
-        The largest value that enters.
+        The largest value at which cells enter.
     max_dim : int, optional
         The highest dimension of homology. Default: all.
     min_dim, field, representatives, loops, min_persistence, cells, engine
@@ -182,7 +183,7 @@ def alpha(X: Any, *, values: str = "alpha", squared: bool | None = None,
     Raises
     ------
     NotBuiltIn
-        If libph was built without CGAL. A build with CGAL falls under the GPL.
+        If libph was built without CGAL. A build with CGAL is subject to the GPL.
 
     Examples
     --------
@@ -190,13 +191,13 @@ def alpha(X: Any, *, values: str = "alpha", squared: bool | None = None,
     >>> ph.alpha(square).dgm(1)
     array([[0.5       , 0.70710678]])
 
-    Two balls of radius 1 and 2, which touch from the start:
+    Two balls of radii 1 and 2, which touch from the start:
 
     >>> ph.alpha([[0, 0, 0], [3, 0, 0]], weights=[1, 4]).dgm(0)
     array([[-4., inf],
            [-1.,  0.]])
 
-    One point of a periodic plane: its ball meets itself along both axes and later fills the plane:
+    One point in a periodic plane. Its ball meets itself along both axes, and later fills the plane:
 
     >>> bars = ph.alpha([[0, 0]], period=2)
     >>> bars.births.tolist()
@@ -211,7 +212,7 @@ def cubical(image: Any, *, construction: str = "vertices", superlevel: bool = Fa
             loops: str | None = None, min_persistence: float = 0.0, cells: bool = True,
             nan: str = "error", engine: str = "auto", slab_layers: int | None = None,
             **run: Unpack[RunOptions]) -> Barcode:
-    """The barcode of the sublevel sets of an image, of 1 to 8 axes.
+    """The barcode of the sublevel sets of an image with 1 to 8 axes.
 
     At a value t, the voxels with values up to t are present: dark voxels come first. With
     `superlevel`, bright voxels come first, and a voxel of value f enters at -f.
@@ -230,7 +231,7 @@ def cubical(image: Any, *, construction: str = "vertices", superlevel: bool = Fa
     periodic : sequence of int, or bool
         The periodic axes; True: all axes.
     threshold : float, optional
-        The largest value that enters.
+        The largest value at which cells enter.
     max_dim : int, optional
         The highest dimension of homology. Default: all.
     min_dim : int

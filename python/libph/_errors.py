@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""The errors of libph. It raises no others, except on Ctrl-C or if a callback raises.
+"""The errors of libph, which raises no others except on Ctrl-C or if a callback raises.
 
-Each also derives from a built-in class, so that ``except ValueError`` catches bad data.
+Each error class also derives from a built-in class, so that ``except ValueError`` catches bad data.
 """
 
 
@@ -30,7 +30,7 @@ class Error(Exception):
 
 
 class UsageError(Error, ValueError):
-    """An argument or option makes no sense."""
+    """An argument or option is invalid."""
 
 
 class DataError(Error, ValueError):
@@ -46,7 +46,7 @@ class OutputError(Error, OSError):
 
 
 class MemoryLimitError(Error, MemoryError):
-    """The memory limit would be exceeded. Only the computation is lost."""
+    """The memory limit would be exceeded. Only the current computation is lost."""
 
 
 class Cancelled(Error):
@@ -58,7 +58,7 @@ class Timeout(Cancelled, TimeoutError):
 
 
 class NotBuiltIn(Error, NotImplementedError):
-    """A feature is not part of this build or of libph, or needs a GPU that is not there."""
+    """A feature is not part of this build or of libph, or needs a GPU that is missing."""
 
 
 class InternalError(Error, RuntimeError):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Functions of points and distances that need no barcode."""
+"""Functions for points and distances that need no barcode."""
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -39,7 +39,7 @@ class Subsample(NamedTuple):
 
 def point_image(X: ArrayLike, voxel: float, *, value: str = "distance", margin: int = 1,
                 **run: Unpack[RunOptions]) -> PointImage:
-    """Converts points to an image for `cubical`, whose cost depends on the volume alone.
+    """Converts points to an image for `cubical`. The cost depends only on the volume.
 
     Parameters
     ----------
@@ -49,7 +49,7 @@ def point_image(X: ArrayLike, voxel: float, *, value: str = "distance", margin: 
         The edge of a voxel, in the unit of the points.
     value : {"distance", "occupancy", "density"}
         The value of a voxel. "distance": its distance to the nearest voxel with a point.
-        "occupancy": 0 if it has a point. "density": minus the number of its points. With the latter
+        "occupancy": 0 if it has a point. "density": minus the number of its points. With the last
         two, voxels without points are absent.
     margin : int
         Number of layers of voxels around the bounding box.
@@ -125,7 +125,7 @@ def delay_embedding(series: ArrayLike, dimension: int, delay: int = 1, *,
     of_points = np.lib.stride_tricks.sliding_window_view(values, span, axis=0)[..., ::delay]
     if values.ndim == 2:  # quantities before times
         of_points = np.swapaxes(of_points, 1, 2)
-        # In these cases the rows cannot be a view of the series.
+        # In these cases, the rows cannot be a view of the series.
         if delay > 1 or not values.flags.c_contiguous:
             copy = _arrays.new_array(of_points.shape)
             copy[...] = of_points
@@ -143,16 +143,16 @@ def delay_embedding(series: ArrayLike, dimension: int, delay: int = 1, *,
 def farthest_points(X: Any, n: int | None = None, *, radius: float = 0.0,
                     metric: Any = "euclidean", minkowski_p: float = 2.0,
                     **run: Unpack[RunOptions]) -> Subsample:
-    """Farthest-point sampling: after point 0, each point is the farthest from the points before it.
+    """Farthest-point sampling: after point 0, always the point farthest from the points before it.
 
     Parameters
     ----------
     X : array_like
         As in `rips`; all distances must be known.
     n : int, optional
-        Number of points. Default: all, or as many as `radius` needs.
+        Number of points. Default: all, or as many as `radius` requires.
     radius : float
-        Sampling stops when every point is at most this far from a chosen one.
+        Sampling stops when every point is at most this far from a chosen point.
     metric, minkowski_p
         As in `rips`.
     **run

@@ -58,7 +58,7 @@ class Report:
         return self._page.decode()
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes the page to a file, whole or not at all."""
+        """Writes the page to a file, completely or not at all."""
         _run.run(_core.write_page, path_of(path), self._page, options={})
 
     def __repr__(self) -> str:
@@ -150,7 +150,7 @@ def report_of_bars(bars: Barcode, X: Any, title: str, options: dict[str, Any]) -
     kind = meta.get("complex")
     known = (*_KNOWN.get(str(kind), ()), *_OF_ALL)
     given = {name: meta[name] for name in known if meta.get(name) is not None}
-    # The barcode stores these births as weights; the data give them as well.
+    # The barcode stores these births as weights, but the diagonal of the data states them already.
     if given.get("diagonal") == "births":
         given.pop("weights", None)
     if isinstance(X, (Mesh, Simplices, Boundary)):

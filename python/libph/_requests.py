@@ -60,7 +60,7 @@ class Request(NamedTuple):
             raise self.told(error) from None
 
     def told(self, error: Error) -> Error:
-        """The error, with the keyword that helps in its message if there is one."""
+        """The error. If a keyword would help, the message names this keyword."""
         message = str(error)
         if isinstance(error, MemoryLimitError):
             return self._with_ways_to_fit(error)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The options of all computations, which bound, watch and stop them."""
+"""The options of all computations, which limit, observe and stop them."""
 from __future__ import annotations
 
 import atexit
@@ -44,12 +44,13 @@ if hasattr(os, "register_at_fork"):
 @contextlib.contextmanager
 def limits(*, memory: int | str | None = None, threads: int | None = None,
            timeout: float | None = None, progress: Progress | None = None) -> Iterator[None]:
-    """Defaults for all computations within a ``with`` block, of this thread or task.
+    """Sets defaults for all computations of this thread or task within a ``with`` block.
 
     Parameters
     ----------
     memory : int or str, optional
-        The most memory that a computation may take, as `memory_limit`: bytes, or "4GiB".
+        The default of `memory_limit`: the largest amount of memory that a computation may take, in
+        bytes or as text ("4GiB").
     threads : int, optional
         Threads that a computation may use.
     timeout : float, optional
@@ -90,7 +91,7 @@ def run(function: Callable[..., _Result], *arguments: Any, options: dict[str, An
 
 def check_names(function: str, options: Mapping[str, object],
                 known: Iterable[str] | Callable[..., Any] = ()) -> None:
-    """Refuses unknown keywords, as Python does for explicit ones, with a hint.
+    """Refuses unknown keywords, as Python does for explicit keywords, and adds a hint.
 
     `known` are the other keywords, or the function that has them.
     """

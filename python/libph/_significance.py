@@ -23,12 +23,12 @@ _MOST = 2**63 - 1
 
 def p_values(bars: Barcode | ArrayLike, dim: int | None = None, *, filtration: str | None = None,
              corrected: bool = True) -> NDArray[np.float64]:
-    """The p-value of each bar: the probability that noise has a bar that stands out as much.
+    """The p-value of each bar: the probability that a bar of noise stands out at least as much.
 
-    The test applies to loops, voids and holes of higher dimension of point sets. For noise,
-    log log (death / birth) follows one law up to a shift, whatever distribution the points are
-    drawn from [Bobrowski, Skraba 2023]. Values may be radii, diameters or squares. With few bars
-    the test is weak, because the shift is computed from the mean of these bars.
+    The test applies to loops, hollows and holes of higher dimension in point sets. For bars of
+    noise, log log (death / birth) follows one law up to a shift, whatever distribution the points
+    are drawn from [Bobrowski, Skraba 2023]. Values may be radii, diameters or squares. With few
+    bars the test is weak, because the shift is computed from the mean of these bars.
 
     Parameters
     ----------
@@ -82,7 +82,7 @@ def confidence_radius(X: ArrayLike, *, alpha: float = 0.05, subsamples: int = 10
                       size: int | None = None, seed: int = 0, **run: Unpack[RunOptions]) -> float:
     """A bound on the distance between points and the set from which they were drawn.
 
-    With probability 1 - alpha, the Hausdorff distance is at most c, as the number of points grows
+    With probability 1 - alpha, the Hausdorff distance is at most c, in the limit of many points
     [Fasy et al. 2014, subsampling]. Therefore bars of the distance function that are longer than 2
     c are real. The values of `rips` are diameters, which are twice as large: bars of `rips` longer
     than 4 c are real. The bound is conservative: expect it to be large.
@@ -180,8 +180,8 @@ def confidence_band(functions: ArrayLike, *, alpha: float = 0.05, repetitions: i
                     seed: int = 0, **run: Unpack[RunOptions]) -> Band:
     """The mean of functions such as landscapes, and a band that contains the true mean.
 
-    With probability 1 - alpha, the true mean lies in the band everywhere at once, as the number of
-    samples grows. Uses the multiplier bootstrap [Chazal et al. 2014].
+    With probability 1 - alpha, in the limit of many samples, the true mean lies in the band
+    everywhere at once. Uses the multiplier bootstrap [Chazal et al. 2014].
 
     Parameters
     ----------
@@ -232,9 +232,10 @@ class PermutationTest(NamedTuple):
     Attributes
     ----------
     p : float
-        The probability that groups from one distribution are as far apart.
+        The probability that groups from one distribution are at least as far apart.
     loss : float
-        The sum over the groups of half the mean distance within the group.
+        For each group, half the mean of the distances within the group, raised to `power`; summed
+        over the groups.
     """
 
     p: float

@@ -120,8 +120,8 @@ def _are_near(numbers: NDArray[Any], number: Any, rounding: float) -> bool:
 
 def _warn_of_a_matrix(points: NDArray[np.float64]) -> None:
     """Warns of an array of points that may be a matrix: a symmetric array with 0 or 1 on its
-    diagonal hardly holds points, except for the corners of a regular simplex, whose coordinates
-    take two values."""
+    diagonal is unlikely to hold points, except for the corners of a regular simplex, whose
+    coordinates take two values."""
     rows, columns = points.shape
     if rows != columns or rows < 4:
         return
@@ -139,7 +139,8 @@ def _warn_of_a_matrix(points: NDArray[np.float64]) -> None:
 
 
 def _of_sparse(X: Any, nan: str | None, diagonal: str, symmetrise: str | None) -> Source:
-    """Both triangles are read. Stored zeros are distances; pairs that are not stored never join."""
+    """Reads both triangles. Stored zeros are distances; pairs that are not stored are never
+    joined."""
     if len(X.shape) != 2 or X.shape[0] != X.shape[1]:
         raise UsageError(f"X: found a sparse matrix of shape {X.shape}, expected a square one")
     row, column, values = _arrays.sparse_entries(X)
@@ -175,8 +176,8 @@ def _of_sparse(X: Any, nan: str | None, diagonal: str, symmetrise: str | None) -
 def unique_pairs(row: NDArray[np.int64], column: NDArray[np.int64], values: NDArray[np.float64],
                  rounding: float, symmetrise: str | None, hint: str, name: str = "X"
                  ) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.float64]]:
-    """Each pair once. Entries of one pair must be equal; if they differ by rounding, the one below
-    the diagonal is used."""
+    """Each pair once. Entries of one pair must be equal; if they differ by rounding, the entry
+    below the diagonal is used."""
     i, j = np.minimum(row, column), np.maximum(row, column)
     order = np.lexsort((row > column, j, i))
     i, j, values = i[order], j[order], values[order]

@@ -26,12 +26,12 @@ class Surface(NamedTuple):
     Attributes
     ----------
     vertices : ndarray
-        All points, (n, 2) or (n, 3); without points (0, 3).
+        All points, (n, 2) or (n, 3); (0, 3) if there are no points.
     triangles : ndarray
         Rows of three points, (m, 3). Seen from outside they are counterclockwise.
     singular : ndarray of bool
         True for triangles without a tetrahedron of the complex on either side; they come last. For
-        points of the plane, this holds for all triangles.
+        points in the plane, this holds for all triangles.
     """
 
     vertices: NDArray[np.float64]
@@ -91,13 +91,13 @@ def alpha_shape(X: Any, value: float, *, wrap: bool = False, squared: bool | Non
                 **run: Unpack[RunOptions]) -> Surface:
     """The surface of the alpha complex of points at a value.
 
-    The complex has the shape of the union of the balls of that radius: the two are homotopy
-    equivalent. For points of the plane, the surface consists of all triangles up to the value.
+    The complex is homotopy equivalent to the union of the balls of that radius. For points in the
+    plane, the surface consists of all triangles with values up to `value`.
 
     Parameters
     ----------
     X : array_like
-        Points of R^1, R^2 or R^3, one per row.
+        Points in R^1, R^2 or R^3, one per row.
     value : float
         The radius of the balls, or its square if `squared` is True.
     wrap : bool

@@ -71,8 +71,8 @@ Estimate estimate_of(const Recipe& recipe, const Task& task, const RunOptions& o
   });
 }
 
-/// One way to make a computation fit its memory. It consists of keywords to change together, and a
-/// text that names them with the memory that the computation then takes.
+/// One way to make a computation fit into its memory limit. It consists of keywords to change
+/// together, and a text that names them with the memory that the computation then takes.
 using WayOut = std::pair<std::vector<std::pair<std::string, std::string>>, std::string>;
 
 std::vector<WayOut> ways_to_fit(const Recipe& recipe, const Task& task, const RunOptions& options) {

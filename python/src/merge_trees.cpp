@@ -39,8 +39,7 @@ Block column(const MergeTree& tree, Member Merge::*member) {
   return Block::of(std::move(numbers));
 }
 
-/// Makes a tree from the arrays that a tree returned. @throws Error (bad_data) if no tree has these
-/// arrays.
+/// Restores a tree from its arrays. @throws Error (bad_data) if no tree has these arrays.
 MergeTree restored(const py::buffer& births, const py::buffer& values, const py::buffer& ends,
                    const py::buffer& sizes) {
   MergeTree tree{vector_of<double>(births), {}};

@@ -21,9 +21,9 @@
 namespace ph::python {
 namespace {
 
-// The number of cells that the chosen engine processes in milliseconds for any input. Starting a
-// thread takes a tenth of a millisecond, or more on a busy machine. The number of cells corresponds
-// to 215 points up to H1, or to 80 points up to H2.
+// The number of cells that the chosen engine processes within milliseconds, whatever the input is.
+// Starting a thread takes a tenth of a millisecond, or more on a busy machine. The number of cells
+// corresponds to 215 points up to H1, or to 80 points up to H2.
 constexpr double kFewSimplices = 1e7;
 constexpr double kFewCubes = 1e5;
 

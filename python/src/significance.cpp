@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// This file tests which bars are unlikely to be random, and which groups of barcodes differ.
+// This file tests which bars are unlikely to be random, and whether groups of barcodes differ.
 #include "ph/significance.hpp"
 
 #include <cstdint>

@@ -32,7 +32,7 @@ _Arrays = tuple[NDArray[np.int64], NDArray[np.float64], NDArray[np.float64]]
 
 
 class Bar(NamedTuple):
-    """A hole that appears at `birth` and disappears at `death`, which is ``inf`` if it never does.
+    """A hole that appears at `birth` and disappears at `death`, or never if `death` is ``inf``.
 
     In dimension 0 it is a component, in 1 a loop, in 2 a hollow; in general a class of H_dim. A bar
     is a tuple: ``dim, birth, death = bar``.
@@ -178,7 +178,7 @@ class Barcode(Cells, Summaries, Sequence[Bar]):
 
     @property
     def deaths(self) -> NDArray[np.float64]:
-        """The death of each bar, inf for one that never dies."""
+        """The death of each bar; inf for a bar that never dies."""
         return self._arrays[2]
 
     def _range(self, dim: int) -> slice:
@@ -231,9 +231,10 @@ class Barcode(Cells, Summaries, Sequence[Bar]):
     def longest(self, dim: int, n: int) -> NDArray[np.int64]: ...
 
     def longest(self, dim: int, n: int | None = None) -> int | NDArray[np.int64]:
-        """The index of the longest bar of a dimension, or the indices of the `n` longest.
+        """The index of the longest bar of a dimension, or the indices of the `n` longest bars.
 
-        Bars that never die come first, then the longest; equal bars keep their order.
+        Bars that never die come first. The others follow by descending length; equally long bars
+        keep their order.
         """
         places = self._range(_options.whole("dim", dim, 0))
         births, deaths = self.births[places], self.deaths[places]
@@ -291,7 +292,7 @@ class Barcode(Cells, Summaries, Sequence[Bar]):
         return pandas.DataFrame(dict(zip(("dim", "birth", "death"), map(np.array, self._arrays))))
 
     def save(self, path: str | os.PathLike[str], format: str | None = None) -> None:
-        """Writes a file, whole or not at all.
+        """Writes the barcode to a file, completely or not at all.
 
         Parameters
         ----------
@@ -308,7 +309,7 @@ class Barcode(Cells, Summaries, Sequence[Bar]):
     def plot(self, kind: str = "diagram", ax: Axes | None = None, *,
              dim: int | Iterable[int] | None = None, noise: float | None = None,
              **style: Any) -> Axes:
-        """Draws with matplotlib.
+        """Draws the barcode with matplotlib.
 
         A notebook shows the picture; elsewhere ``matplotlib.pyplot.show()`` opens a window, and
         ``axes.figure.savefig(path)`` writes a file.
@@ -348,7 +349,8 @@ class Barcode(Cells, Summaries, Sequence[Bar]):
             Title of the page. Default: a description of the data.
         **options
             Keywords of the computation that the barcode does not store: an array of `weights`, a
-            function as `metric`. For a barcode from a file, all keywords that were not defaults.
+            function as `metric`. For a barcode from a file, all keywords whose values were not the
+            defaults.
 
         Returns
         -------

@@ -63,7 +63,7 @@ class Chain:
         return f"Chain({len(self)} cells)"
 
     def loops(self) -> list[Loop]:
-        """The loops of a cycle of H1: with their coefficients they sum to a cycle of the class.
+        """The loops of a cycle of H1. Times their coefficients, they sum to a cycle of the class.
 
         Raises
         ------
@@ -74,7 +74,7 @@ class Chain:
 
     @property
     def tightness(self) -> str:
-        """How short its loops are known to be: "no", "locally" or "shortest"."""
+        """The guarantee about the length of the loops: "no", "locally" or "shortest"."""
         return self._loops_found()[1]
 
     def _loops_found(self) -> tuple[list[Loop], str]:
@@ -100,7 +100,7 @@ class Chain:
         return loops[0].vertices
 
     def to_dense(self, n: int) -> NDArray[np.int64]:
-        """The chain as an array with an axis of `n` vertices for each vertex of a cell.
+        """The chain as an array with one axis of length `n` for each vertex of a cell.
 
         The coefficient of the cell [u < v < ...] is at [u, v, ...].
         """

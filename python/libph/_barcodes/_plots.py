@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Pictures with matplotlib: they return the Axes and leave global settings alone."""
+"""Functions that draw with matplotlib: they return the Axes and change no global settings."""
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, NamedTuple

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Distances of barcodes, matchings, and barycentres."""
+"""Distances between barcodes, matchings, and barycentres."""
 from ._barycentre import Barycentre, barycentre
 from ._diagrams import all_rows
 from ._matchings import Matching, bottleneck_matching, wasserstein_matching

@@ -23,15 +23,15 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class Matching:
-    """A matching of two diagrams; see `bottleneck_matching`, `wasserstein_matching`.
+    """A matching between two diagrams; see `bottleneck_matching`, `wasserstein_matching`.
 
     Attributes
     ----------
     distance : float
-        The cost of the matching: the distance of the diagrams, or a larger number within the
+        The cost of the matching: the distance between the diagrams, or a larger number within the
         requested error.
     lower : float
-        A lower bound of the distance.
+        A lower bound for the distance.
     pairs : ndarray
         Rows (i, j): bar i of `a` is paired with bar j of `b`; -1 is the diagonal. Each bar is in
         one row. Empty if the distance is infinite.
@@ -59,7 +59,7 @@ class Matching:
         Parameters
         ----------
         ax : Axes, optional
-            The axes to draw on. Default: new ones.
+            The axes to draw on. Default: the axes of a new figure.
         **style
             Style of the lines, for matplotlib's LineCollection.
 

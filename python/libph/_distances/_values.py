@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Distances of two barcodes, and of all pairs of many."""
+"""Distances between two barcodes, and between all pairs of a list."""
 from __future__ import annotations
 
 import math
@@ -33,7 +33,7 @@ def bottleneck(a: ArrayLike, b: ArrayLike, dim: int | None = None, *, relative_e
 
 def bottleneck(a: Any, b: Any, dim: int | None = None, *, relative_error: float = 0.0,
                at_most: float = math.inf, **run: Unpack[RunOptions]) -> float | dict[int, float]:
-    """The bottleneck distance of two barcodes, exact.
+    """The exact bottleneck distance between two barcodes.
 
     Bars are paired or left over. The distance is the least d such that births and deaths of each
     pair are at most d apart, and bars left over are at most 2 d long. Bars that never die are
@@ -83,7 +83,7 @@ def wasserstein(a: ArrayLike, b: ArrayLike, dim: int | None = None, *, order: fl
 def wasserstein(a: Any, b: Any, dim: int | None = None, *, order: float = 1.0,
                 ground: float = math.inf, relative_error: float = 0.0, at_most: float = math.inf,
                 **run: Unpack[RunOptions]) -> float | dict[int, float]:
-    """The Wasserstein distance of two barcodes, to the last digits or certified within a bound.
+    """The Wasserstein distance between two barcodes, exact or with a certified error bound.
 
     Bars are paired or left over. A pair costs its distance to the power of `order`; a bar left over
     costs its distance from the diagonal to the same power. The Wasserstein distance is the root, of
@@ -99,8 +99,8 @@ def wasserstein(a: Any, b: Any, dim: int | None = None, *, order: float = 1.0,
     order : float
         p, at least 1 and finite. `bottleneck` corresponds to p = inf.
     ground : float
-        q, the norm of a pair, at least 1: inf for the larger difference of births and deaths, 2
-        for the Euclidean norm.
+        q, the norm that measures a pair, at least 1: inf for the larger difference of births and
+        deaths, 2 for the Euclidean norm.
     relative_error : float
         0: the exact distance. Otherwise the result is at least the distance, and at most 1 +
         relative_error times as large; 0.01 is several times as fast.
@@ -138,11 +138,11 @@ def sliced_wasserstein(a: ArrayLike, b: ArrayLike, dim: int | None = None, *, di
 
 def sliced_wasserstein(a: Any, b: Any, dim: int | None = None, *, directions: int = 50,
                        **run: Unpack[RunOptions]) -> float | dict[int, float]:
-    """The sliced Wasserstein distance of two barcodes [Carrière, Cuturi, Oudot 2017].
+    """The sliced Wasserstein distance between two barcodes [Carrière, Cuturi, Oudot 2017].
 
-    Bars are projected to lines, and the sorted projections are compared. This distance differs from
-    `wasserstein`: it is at most 2 √2 times the Wasserstein distance of order 1. exp(-distance) is a
-    positive definite kernel.
+    Bars are projected onto lines, and the sorted projections are compared. This distance differs
+    from `wasserstein`: it is at most 2 √2 times the Wasserstein distance of order 1. exp(-distance)
+    is a positive definite kernel.
 
     Parameters
     ----------
@@ -174,7 +174,7 @@ def diagram_distances(diagrams: Iterable[Barcode | ArrayLike],
                       *, distance: str = "wasserstein", order: float = 1.0,
                       ground: float = math.inf, relative_error: float = 0.0, directions: int = 50,
                       **run: Unpack[RunOptions]) -> NDArray[np.float64]:
-    """The distances of all pairs of diagrams, on all cores.
+    """The distances between all pairs of diagrams, computed on all cores.
 
     Parameters
     ----------

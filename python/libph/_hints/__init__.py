@@ -11,7 +11,7 @@ __all__ = ["BARCODE", "KEYWORDS", "MODULE", "SKLEARN", "of_keyword", "of_name"]
 
 
 def of_name(name: str, table: dict[str, str], known: Iterable[str]) -> str:
-    """The end of the message that a name is missing; empty if there is no hint.
+    """The end of a message about a missing name; empty if there is no hint.
 
     >>> of_name("wasserstein", {"wasserstein": "use ph.bottleneck"}, [])
     '; use ph.bottleneck'

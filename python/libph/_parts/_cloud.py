@@ -69,11 +69,11 @@ class CloudPart(Part):
 
 def cloud_part(points: ArrayLike, part: int, parts: int, *, threshold: float | None = None,
                **run: Unpack[RunOptions]) -> CloudPart:
-    """Computes one of several parts of the components (H0) of a point cloud: some blocks of it.
+    """Computes the components (H0) of some blocks of a point cloud: one of several parts.
 
     Each part reads all points but holds one block at a time, at about 200 bytes per point. The
     points may therefore be a memory map, ``numpy.load(path, mmap_mode="r")``, that is larger than
-    any memory: in float64, they stay in the file.
+    the memory of any machine: points in float64 stay in the file.
 
     Parameters
     ----------

@@ -136,7 +136,8 @@ def image_part(image: Any, part: int, parts: int, *, construction: str = "vertic
     """Computes one of several parts of an image's barcode: some layers of its first axis.
 
     Reads only the voxels of these layers and of one layer on either side. The image may therefore
-    be a memory map, ``numpy.load(path, mmap_mode="r")``, that is larger than any memory.
+    be a memory map, ``numpy.load(path, mmap_mode="r")``, that is larger than the memory of any
+    machine.
 
     Parameters
     ----------
@@ -150,7 +151,7 @@ def image_part(image: Any, part: int, parts: int, *, construction: str = "vertic
         As in `cubical`. They must be the same for all parts.
     max_dim, min_dim : int, optional
         As in `cubical`. Images with d axes, three or more, need ``max_dim=0`` or, if no axis is
-        periodic, ``min_dim=d - 1``, because the dimensions between need all layers at once. For
+        periodic, ``min_dim=d - 1``, because the dimensions in between need all layers at once. For
         volumes, `loops` lifts this restriction.
     cells : bool
         If True, bars store the cells of their birth and death.

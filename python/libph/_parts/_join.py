@@ -37,8 +37,8 @@ def join_parts(parts: Iterable[_P], **run: Unpack[RunOptions]) -> _P:
     Raises
     ------
     DataError
-        If parts occur twice, if they belong to different images, clouds or options, or if parts of
-        an image are missing between others.
+        If parts occur twice, if they belong to different images or clouds, if their options differ,
+        or if parts of an image are missing between others.
 
     Examples
     --------

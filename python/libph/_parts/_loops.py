@@ -24,10 +24,10 @@ def _as_bytes(name: str, data: Any) -> bytes:
 class ImageLoops:
     """The loops of a volume that belong to one part; finding loops needs all layers at once.
 
-    The parts work side by side, in any processes on any machines, and send each other messages
-    until no message is in transit. Neither the schedule nor the order in which messages arrive
-    affects the result. An object cannot leave its process. After a call that failed or was stopped,
-    the object is useless, and a new part must be computed.
+    The parts work in parallel, in any processes on any machines, and send each other messages until
+    no message is in transit. Neither the schedule nor the order in which messages arrive affects
+    the result. An `ImageLoops` cannot be sent to another process. After a call that failed or was
+    stopped, the object is useless, and a new part must be computed.
 
     Parameters
     ----------
@@ -107,13 +107,13 @@ class ImageLoops:
         _run.run(self._loops.begin, _as_bytes("told", told), options=dict(run))
 
     def receive(self, message: bytes) -> None:
-        """Receives a message for this part, even before `begin`. Each message must come exactly
-        once.
+        """Receives a message for this part, even before `begin`. Each message must be received
+        exactly once.
 
         Raises
         ------
         DataError
-            If the message is damaged, is for another part, or has come before.
+            If the message is damaged, is for another part, or was received before.
         """
         self._loops.receive(_as_bytes("message", message))
 
@@ -123,8 +123,8 @@ class ImageLoops:
         return self._loops.is_idle
 
     def work(self, most: int | None = None, **run: Unpack[RunOptions]) -> None:
-        """Works until all work is done or waits for other parts; stops after `most` columns, if
-        given."""
+        """Reduces columns until all columns are done or wait for other parts, or until `most`
+        columns are reduced."""
         _run.check_names("work", run, ["most"])
         count = None if most is None else _options.whole("most", most, 1)
         _run.run(self._loops.work, count, options=dict(run))

@@ -39,7 +39,7 @@ class Part:
         return cls(data)
 
     def to_bytes(self) -> bytes:
-        """The part as bytes, as its file holds them; the same on every machine.
+        """The part as bytes, exactly as in its file; they are the same on every machine.
 
         ``ph-barcode --join`` accepts such a file.
         """

@@ -26,8 +26,8 @@ class Segment(NamedTuple):
     voxels : int
         Number of its voxels.
     persistence : float
-        The value at which the object first meets another one, less its own lowest value: the
-        confidence in the object. It is inf if the object meets no other.
+        The value at which the object first meets another object, minus its own lowest value. It
+        measures the confidence in the object, and is inf if the object meets no other.
     centroid : ndarray
         The mean of its points, without the points at its base on the plane.
     box : ndarray

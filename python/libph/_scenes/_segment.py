@@ -43,7 +43,7 @@ def segment(cloud: Any, *, method: str | None = None, supervoxels: float | None 
     """Segments a point cloud or a depth image into objects.
 
     All lengths are in metres. Doubts about the result, such as a missing plane or lengths that look
-    like millimetres, are raised as a ``UserWarning`` and stored in `Segmentation.meta`.
+    like millimetres, are issued as a ``UserWarning`` and stored in `Segmentation.meta`.
 
     Parameters
     ----------
@@ -82,7 +82,7 @@ def segment(cloud: Any, *, method: str | None = None, supervoxels: float | None 
         The least half thickness at a range of one metre; it grows with the square of the range.
         Default: 0.005. Not for "paper".
     previous : Segmentation, optional
-        The segmentation of the frame before, from the same camera. The search for the supporting
+        The segmentation of the previous frame, from the same camera. The search for the supporting
         plane starts at the plane of that frame, so that the plane does not jump.
     viewpoint : sequence of float, optional
         The position of the sensor. Default: the position that the file or the rays of the pixels

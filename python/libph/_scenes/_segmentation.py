@@ -226,8 +226,8 @@ class Segmentation:
                                 self.meta["voxels"], min_size or self.meta["min_size"])
         separates = sizes[:, 0] >= (min_part or self.meta["min_part"])
         births = np.asarray(tree.births)[np.asarray(tree.younger)]
-        # Between two consecutive values all cuts are equal, and the last value joins all that can
-        # be joined.
+        # Between two consecutive levels, all cuts are equal. The last level joins everything that
+        # can be joined.
         levels = np.unique(np.append((values - births)[separates], 0.0))
         levels = np.append(levels, np.nextafter(levels[-1], np.inf))
 
@@ -275,7 +275,7 @@ class Segmentation:
         return Barcode._of(bars, {"complex": "cubical", "field": 2})
 
     def first_meeting(self, a: int, b: int) -> tuple[float, NDArray[np.float64]] | None:
-        """The value at which two objects join, and the place in space; None if they never do."""
+        """The value at which two objects first meet, and where they meet; None if they never do."""
         meeting = self._found.first_meeting(self._label("a", a), self._label("b", b))
         return None if meeting is None else (meeting[0], np.array(meeting[1]))
 
@@ -287,7 +287,7 @@ class Segmentation:
     # ---- output
 
     def save(self, path: str | os.PathLike[str], format: str | None = None) -> None:
-        """Writes a file, whole or not at all.
+        """Writes a file, completely or not at all.
 
         Parameters
         ----------
@@ -313,7 +313,7 @@ class Segmentation:
         _run.run(self._found.save, file, known, options={})
 
     def report(self, *, title: str = "", **run: Unpack[RunOptions]) -> Report:
-        """An interactive page, as ``ph-segment --report`` writes it: the points, the merge tree.
+        """An interactive page of points and merge tree, as ``ph-segment --report`` writes it.
 
         Parameters
         ----------

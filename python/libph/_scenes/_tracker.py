@@ -69,7 +69,7 @@ class LabelTracker:
         raise TypeError("cannot pickle a LabelTracker: it belongs to one stream of frames")
 
     def update(self, frame: Any) -> Any:
-        """Takes the next frame.
+        """Processes the next frame.
 
         Parameters
         ----------

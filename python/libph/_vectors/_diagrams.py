@@ -51,7 +51,7 @@ def checked_infinity(infinity: Any, may_keep: bool) -> Infinity:
 
 
 def settled(dgm: Diagram, infinity: Infinity, name: str) -> Diagram:
-    """The diagram with its infinite deaths as `infinity` says."""
+    """The diagram, with infinite deaths treated as `infinity` specifies."""
     endless = np.isinf(dgm[:, 1])
     if infinity == "keep" or not endless.any():
         return dgm

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Euler characteristic curves straight from images."""
+"""Euler characteristic curves, computed directly from images."""
 from __future__ import annotations
 
 from collections.abc import Iterable

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Kernels of diagrams."""
+"""Kernels for diagrams."""
 from __future__ import annotations
 
 from collections.abc import Iterable
@@ -26,7 +26,7 @@ def diagram_kernels(diagrams: Iterable[Barcode | ArrayLike],
                     others: Iterable[Barcode | ArrayLike] | None = None, dim: int | None = None, *,
                     kernel: str = "scale_space", sigma: float = 1.0, slope: float = 1.0,
                     power: float = 1.0, **run: Unpack[RunOptions]) -> NDArray[np.float64]:
-    """A positive definite kernel of all pairs of diagrams, on all cores: the Gram matrix.
+    """The Gram matrix of a positive definite kernel for diagrams, computed on all cores.
 
     "scale_space" is the persistence scale-space kernel [Reininghaus et al. 2015]: the sum of
     ``exp(-|p - q|² / (8 sigma)) - exp(-|p - q'|² / (8 sigma))`` over the bars p of one diagram and

@@ -33,10 +33,10 @@ class Summaries:
     # ---- numbers
 
     def statistics(self, dim: int, *, infinity: float | str = "error") -> dict[str, float]:
-        """38 numbers that describe a dimension; the first thing to try [Ali et al. 2023].
+        """38 numbers that describe the bars of a dimension, a good first choice [Ali et al. 2023].
 
         For births, deaths, midpoints and lengths: mean, standard deviation, median, interquartile
-        range, range, and the 10th, 25th, 75th and 90th percentiles. Then the number of bars and
+        range, range, and the 10th, 25th, 75th and 90th percentiles; then the number of bars and
         their entropy in nats. Bars of length 0 do not count. Without bars, all numbers are 0.
 
         Parameters
@@ -74,8 +74,8 @@ class Summaries:
             Natural logarithms, or logarithms to the base 2, as in giotto-tda.
         normalised : {None, "count", "total"}
             "count": divided by the largest possible value, the logarithm of the number of bars, as
-            persim offers. "total": divided by the logarithm of the sum of the lengths, as
-            giotto-tda offers; the result then depends on the unit of the values.
+            in persim. "total": divided by the logarithm of the sum of the lengths, as in
+            giotto-tda; the result then depends on the unit of the values.
 
         Returns
         -------
@@ -365,7 +365,7 @@ class Summaries:
         return dgm, ends, count
 
     def _settled(self, dim: int, infinity: Any, may_keep: bool) -> Diagram:
-        """The bars of a dimension, without infinite ends if `infinity` excludes them."""
+        """The bars of a dimension, without infinite ends if `infinity` does not allow them."""
         rule = checked_infinity(infinity, may_keep)
         rows = self.dgm(dim)
         if rule == "drop":  # including bars born at -inf

@@ -3,7 +3,7 @@
 
 Each drop-in is a module here, such as `libph.compat.ripser`. `install` gives it the name of the
 package that it replaces, so that existing code runs unchanged. docs/how-to/coming-from.md shows
-how, and lists where libph deliberately answers differently.
+how, and lists the cases in which libph deliberately gives another answer.
 """
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ def install(*names: str) -> None:
     ----------
     *names : str
         "ripser", "gph", "cripser" (with "tcripser"), "gudhi", "persim". Their modules, such as
-        ripser.ripser and gudhi.rips_complex, come with them.
+        ripser.ripser and gudhi.rips_complex, are included.
 
     Raises
     ------

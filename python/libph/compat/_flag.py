@@ -111,7 +111,7 @@ def rounded(numbers: NDArray[np.float64], dtype: np.dtype[Any]) -> NDArray[np.fl
 def ordered(dgm: NDArray[np.float64], dim: int, essential_last: bool = False) -> NDArray[np.int64]:
     """The order of Ripser: H0 by death; others by descending birth, then descending death.
 
-    With `essential_last` bars that never die follow the others.
+    With `essential_last`, bars that never die follow the others.
     """
     births, deaths = dgm.T
     keys: tuple[NDArray[Any], ...] = (births, deaths) if dim == 0 else (-deaths, -births)
@@ -324,9 +324,9 @@ def bars_of(barcode: Barcode, max_dim: int, dtype: np.dtype[Any], essential_last
 
 
 def youngest_edges(values_of: Any, simplices: NDArray[np.int64]) -> NDArray[np.int64]:
-    """For each simplex the edge of the largest value, its larger vertex first. Among equal edges,
-    it is the one with the smallest larger vertex, then with the smallest smaller vertex. Vertices
-    stay as they are.
+    """For each simplex, the edge with the largest value, its larger vertex first. Among equal
+    edges, it is the one with the smallest larger vertex, then with the smallest smaller vertex.
+    Vertices stay as they are.
 
     `values_of` returns the values of pairs u < v.
     """

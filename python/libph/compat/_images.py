@@ -15,7 +15,7 @@ def deciding_voxels(cells: NDArray[np.int64], image: NDArray[Any], is_vertices: 
     """For each cell, in doubled grid coordinates, the voxel that determines its value.
 
     This is the largest of its vertices, or the smallest of the cubes around it; the first among
-    equals. `periodic` tells for each axis whether it is periodic. Default: none is.
+    equals. `periodic` states for each axis whether it is periodic. Default: no axis is.
     """
     if not len(cells):
         return np.empty((0, image.ndim), dtype=np.int64)

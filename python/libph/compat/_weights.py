@@ -93,8 +93,8 @@ def _given(weights: ArrayLike, n: int) -> NDArray[np.float64]:
 
 def distance_to_measure(distances_of: Any, n: int, params: Mapping[str, Any],
                          has_itself: bool = True) -> NDArray[np.float64]:
-    """For each point, twice the mean, with exponent r, of the distances to its nearest points and
-    to itself."""
+    """For each point, twice the power mean, with exponent r, of the distances to its nearest points
+    and to itself."""
     neighbours = _options.whole("weight_params: n_neighbors", params.get("n_neighbors", 3), 1)
     r = _options.positive("weight_params: r", params.get("r", 2))
     births = np.empty(n)

@@ -7,7 +7,7 @@
 >>> cripser.computePH(ring)[1]
 array([1., 1., 7., 3., 2., 0., 2., 2., 0.])
 
-docs/how-to/coming-from.md lists where libph deliberately answers differently.
+docs/how-to/coming-from.md lists the cases in which libph deliberately gives another answer.
 """
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ def computePH(arr: ArrayLike, maxdim: int = 2, top_dim: bool = False, embedded: 
         If True, only the highest dimension is reported: the number of axes minus one.
     embedded : bool
         If True, the image is negated and surrounded by a layer of -inf, except along a third or
-        fourth axis of extent 1. The barcode is dual to that of the other construction.
+        fourth axis of extent 1. The barcode is dual to the barcode of the other construction.
     location : str
         Has no effect, as in cripser: both locations are always reported.
     **run
@@ -185,7 +185,7 @@ def to_gudhi_diagrams(ph: ArrayLike, *, maxdim: int | None = None, include_empty
     ph : array_like
         Rows of `computePH`.
     maxdim : int, optional
-        The highest dimension. Default: the highest there is.
+        The highest dimension. Default: the highest dimension that occurs.
     include_empty : bool
         If True, dimensions without bars have a diagram as well.
     """

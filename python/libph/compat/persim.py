@@ -19,7 +19,7 @@ __all__ = ["__version__", "bottleneck", "plot_diagrams", "wasserstein"]
 
 
 def bottleneck(dgm1: ArrayLike, dgm2: ArrayLike, matching: bool = False) -> Any:
-    """The bottleneck distance of the bars that die; all other bars are left out with a warning.
+    """The bottleneck distance between the bars that die; others are left out with a warning.
 
     Parameters
     ----------
@@ -41,8 +41,8 @@ def bottleneck(dgm1: ArrayLike, dgm2: ArrayLike, matching: bool = False) -> Any:
 
 
 def wasserstein(dgm1: ArrayLike, dgm2: ArrayLike, matching: bool = False) -> Any:
-    """The Wasserstein distance of order 1 with Euclidean ground norm, of bars that die; others are
-    left out with a warning.
+    """The Wasserstein distance of order 1 with Euclidean ground norm between the bars that die; all
+    other bars are left out with a warning.
 
     Parameters
     ----------
@@ -125,7 +125,7 @@ def plot_diagrams(diagrams: Any, plot_only: Any = None, title: str | None = None
     show : bool
         If True, `matplotlib.pyplot.show` is called.
     ax : Axes, optional
-        The axes to draw on. Default: the current ones.
+        The axes to draw on. Default: the current axes.
 
     Returns
     -------

@@ -5,9 +5,9 @@
 >>> ripser(np.array([[0, 0], [1, 0], [1, 1], [0, 1], [0, 1]]))["dgms"][1]
 array([[1.        , 1.41421354]])
 
-The numbers are the same as in ripser.py: rounded to single precision, in its order.
-``dtype=np.float64`` gives exact numbers. docs/how-to/coming-from.md lists where libph deliberately
-answers differently.
+The numbers are the same as in ripser.py: rounded to single precision, and in the order of
+ripser.py. ``dtype=np.float64`` gives exact numbers. docs/how-to/coming-from.md lists the cases in
+which libph deliberately gives another answer.
 """
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ __all__ = ["Rips", "__version__", "correlation_to_distance", "get_greedy_perm", 
 
 
 def __getattr__(name: str) -> Any:
-    if name == "Rips":  # its base class comes from scikit-learn
+    if name == "Rips":  # its base class is part of scikit-learn
         from ._ripser_class import Rips
         return Rips
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
@@ -53,7 +53,7 @@ def ripser(X: Any, maxdim: int = 1, thresh: float = np.inf, coeff: int = 2,
         Points, one per row; or distances: entries above the diagonal are used, and entries on the
         diagonal are births.
     maxdim : int
-        The highest dimension of homology; below 0: 0.
+        The highest dimension of homology; a negative number counts as 0.
     thresh : float
         The largest distance at which points are joined.
     coeff : int
@@ -65,7 +65,7 @@ def ripser(X: Any, maxdim: int = 1, thresh: float = np.inf, coeff: int = 2,
     metric : str or callable
         As in scikit-learn's `pairwise_distances`.
     n_perm : int, optional
-        Number of points to take. Each is the farthest from the points before it.
+        Number of points to take. Each point is the one farthest from the points taken before it.
     dtype : {float32, float64}
         The precision of the filtration.
     **run

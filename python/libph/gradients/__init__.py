@@ -16,7 +16,7 @@ is returned:
   ``metric="chebyshev"``, the first one; among equally near points, for ``weights="dtm"``, the
   points with the smallest numbers.
 
-`libph.torch` offers the same as functions of torch.
+`libph.torch` offers the same derivatives for torch tensors.
 """
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Distances of points and matrices, and the propagation of their derivatives."""
+"""Distances from points or matrices, and the propagation of their derivatives."""
 from __future__ import annotations
 
 import math

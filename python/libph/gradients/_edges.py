@@ -155,10 +155,11 @@ class RipsValues(CellValues):
 
 
 def _met_of_squares(lengths: Numbers, a: Numbers, b: Numbers) -> tuple[Numbers, ...]:
-    """The t at which balls with radii of half the roots of t² - a² and t² - b² meet, and its
-    derivatives.
+    """The value t at which the balls of radii sqrt(t² - a²) / 2 and sqrt(t² - b²) / 2 meet, and the
+    derivatives of t.
 
-    If a ball already contains the other one at its birth, they meet at this birth.
+    If one ball already contains the other point when that point is born, the balls meet at this
+    birth.
     """
     # In a unit of about their size, no square overflows. Powers of 2 cause no rounding.
     largest = np.maximum(lengths, np.maximum(a, b))

@@ -97,7 +97,7 @@ class VoxelValues(CellValues):
         self._gradient = np.zeros(self._shape)
 
     def _levels(self, at: tuple[Integers, ...]) -> Numbers:
-        """The values of pixels; NaN never enters."""
+        """The values of pixels; a pixel with the value NaN never enters."""
         levels = self._sign * self._image[at].astype(np.float64)
         return np.where(np.isnan(levels), np.inf, levels)
 

@@ -15,14 +15,15 @@ class Atol(Vectoriser):
     """Measures how much of a diagram is near each of some learned centres [Royer et al. 2021].
 
     The bars of all fitted samples are points (birth, death). k-means finds their centres; the width
-    of a centre is half its distance to the nearest other one. A feature is the sum of the
+    of a centre is half its distance to the nearest other centre. A feature is the sum of the
     `contrast` function over the bars of a diagram. The result depends neither on the order of
     samples and bars, nor on threads or the machine.
 
     Parameters
     ----------
     centres : int
-        Number of centres for each diagram of a sample. Bars at this many places are needed.
+        Number of centres for each diagram of a sample. The fitted bars must have at least this many
+        different pairs of birth and death.
     contrast : {"laplace", "gauss"}
         exp(-distance / width), or exp(-distance² / width²), the default of GUDHI.
     seed : int

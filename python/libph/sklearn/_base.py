@@ -28,8 +28,8 @@ def table_of(estimator: BaseEstimator, X: Any, reset: bool) -> NDArray[np.float6
 class MakesTables:
     """`set_output` for transformers of lists.
 
-    The version of scikit-learn 1.2 fails for lists, because it takes their method `index` for row
-    names. Besides, pandas would take diagrams apart.
+    The method of scikit-learn 1.2 fails for lists, because it mistakes their method `index` for row
+    names. Moreover, pandas would take diagrams apart.
     """
 
     def __init_subclass__(cls, **how: Any) -> None:
@@ -58,7 +58,7 @@ class MakesTables:
         return self
 
     def _in_table(self, X: Any, rows: Any) -> Any:
-        """The rows, or the DataFrame that `set_output` asked for."""
+        """The rows, or the DataFrame that `set_output` requested."""
         kind = _get_output_config("transform", self)["dense"]
         if kind == "default":
             return rows

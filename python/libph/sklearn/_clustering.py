@@ -24,7 +24,7 @@ from ._neighbours import METRICS, Neighbours
 _Integers = NDArray[np.int64]
 _Numbers = NDArray[np.float64]
 
-_STANDS_OUT = 1.5  # least ratio of a bar to the next one that bars of noise seldom reach
+_STANDS_OUT = 1.5  # least ratio of a bar to the next shorter one; noise seldom reaches it
 
 
 class PersistenceClustering(ClusterMixin, BaseEstimator):
@@ -203,7 +203,8 @@ class _Hills(NamedTuple):
 
 
 def _hills_of(function: _Numbers, neighbours: _Integers) -> _Hills:
-    """All steps use the ranks of the points, so that their numbers break ties."""
+    """Computes the hills. All steps use the ranks of the points, so that their numbers break
+    ties."""
     n = len(function)
     order = np.argsort(function, kind="stable")
     rank = np.empty(n, dtype=np.int64)

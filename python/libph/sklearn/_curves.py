@@ -60,7 +60,7 @@ class Landscape(_OnGrid):
         The range of each diagram of a sample. ``range=ranges_`` gives another transformer the same
         grid.
     grids_ : list of ndarray
-        The values.
+        The values of the grid of each diagram.
 
     Examples
     --------
@@ -122,7 +122,7 @@ class Silhouette(_OnGrid):
         The range of each diagram of a sample. ``range=ranges_`` gives another transformer the same
         grid.
     grids_ : list of ndarray
-        The values.
+        The values of the grid of each diagram.
 
     Examples
     --------
@@ -172,7 +172,7 @@ class BettiCurve(_OnGrid):
         The range of each diagram of a sample. ``range=ranges_`` gives another transformer the same
         grid.
     grids_ : list of ndarray
-        The values.
+        The values of the grid of each diagram.
 
     Examples
     --------
@@ -221,7 +221,7 @@ class LifeEntropy(_OnGrid):
         The range of each diagram of a sample. ``range=ranges_`` gives another transformer the same
         grid.
     grids_ : list of ndarray
-        The values.
+        The values of the grid of each diagram.
 
     Examples
     --------

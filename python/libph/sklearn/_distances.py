@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Distances and kernels of lists of diagrams; `libph` computes them."""
+"""Distances and kernels for lists of diagrams; `libph` computes them."""
 from __future__ import annotations
 
 import math
@@ -15,7 +15,7 @@ from ._pairs import BesideFitted
 
 
 class DiagramDistances(BesideFitted):
-    """The distances of diagrams from the fitted diagrams.
+    """The distances between diagrams and the fitted diagrams.
 
     If a sample has several diagrams, a norm combines their distances into one number.
 

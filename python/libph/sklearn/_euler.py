@@ -43,7 +43,7 @@ class EulerCurve(MakesTables, TransformerMixin, TakesDiagrams):
     range_ : pair of float
         ``range=range_`` gives another transformer the same grid.
     grid_ : ndarray
-        The values.
+        The values of the grid.
 
     Examples
     --------

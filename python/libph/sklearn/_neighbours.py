@@ -54,7 +54,8 @@ class Neighbours:
         return search.fit(np.ldexp(self._points, -exponent))
 
     def of(self, rows: _Numbers) -> tuple[_Numbers, NDArray[np.int64]]:
-        """For each row, the distances of its k nearest points, ascending, and their indices."""
+        """For each row, the distances to its k nearest points, ascending, and the indices of these
+        points."""
         rows = _comparable(rows, self._name)[0]
         exponent = max(self._exponent, _exponent_of(rows) - _ROOM)
         scaled = np.ldexp(rows, -exponent)

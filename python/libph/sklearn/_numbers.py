@@ -12,10 +12,10 @@ from ._vectoriser import Vectoriser
 
 
 class Statistics(Vectoriser):
-    """38 numbers that describe each diagram; the first thing to try [Ali et al. 2023].
+    """38 numbers that describe each diagram, a good first choice [Ali et al. 2023].
 
     For births, deaths, midpoints and lengths: mean, standard deviation, median, interquartile
-    range, range, and the 10th, 25th, 75th and 90th percentiles. Then the number of bars and their
+    range, range, and the 10th, 25th, 75th and 90th percentiles; then the number of bars and their
     entropy in nats. Bars of length 0 do not count. Without bars, all numbers are 0. The numbers
     have different units: scale them, for example with ``StandardScaler``, before you measure
     distances.
@@ -57,9 +57,9 @@ class Entropy(Vectoriser):
     unit : {"nats", "bits"}
         Natural logarithms, or logarithms to the base 2, as in giotto-tda.
     normalised : {None, "count", "total"}
-        "count": divided by the largest possible value, the logarithm of the number of bars, as
-        persim offers. "total": divided by the logarithm of the sum of the lengths, as giotto-tda
-        offers; the result then depends on the unit of the values.
+        "count": divided by the largest possible value, the logarithm of the number of bars, as in
+        persim. "total": divided by the logarithm of the sum of the lengths, as in giotto-tda; the
+        result then depends on the unit of the values.
 
     Examples
     --------

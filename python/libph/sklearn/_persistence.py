@@ -115,7 +115,7 @@ class _Persistence(MakesTables, TransformerMixin, TakesLists):
         raise NotImplementedError
 
     def _options(self) -> dict[str, Any]:
-        """Keywords of the function, except the dimensions."""
+        """The keyword arguments for `self._function`, without the dimensions."""
         raise NotImplementedError
 
     def _diagram(self, bars: Barcode, dim: int) -> NDArray[np.float64]:
@@ -174,7 +174,8 @@ class RipsPersistence(_Persistence):
     metric, minkowski_p, threshold, weights, dtm_neighbors, field, collapse, approximation
         As in `libph.rips`.
     subsample : int, optional
-        Number of points to keep of each cloud. Each is the farthest from the points before it.
+        Number of points to keep of each cloud. Each point is the one farthest from the points
+        chosen before it.
     min_persistence : float
         Bars with death - birth <= this value are left out.
     output : {"list", "giotto", "barcode"}
@@ -185,7 +186,7 @@ class RipsPersistence(_Persistence):
         What to do with bars that never die: None keeps them, "drop" leaves them out, "error" raises
         an error, and with a number they die at this value.
     reduced : bool
-        If True, the component that never dies is left out; if there are several, the eldest.
+        If True, the component that never dies is left out; if there are several, the eldest one.
     n_jobs : int, optional
         Number of samples computed at a time, in threads. Spare processors are given to the samples.
         Default: one.

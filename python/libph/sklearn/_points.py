@@ -91,7 +91,7 @@ class FarthestPoints(ClassNamePrefixFeaturesOutMixin, TransformerMixin, BaseEsti
     """Landmarks spread over all points by farthest-point sampling [Gonzalez 1985].
 
     The first landmark is row 0; each further landmark is the point farthest from the landmarks
-    before it. A transformer of scikit-learn keeps all rows; therefore `transform` returns the
+    before it. A transformer of scikit-learn must keep all rows; therefore `transform` returns the
     distances to the landmarks, and `points_` holds the selected rows. Inside a pipeline of clouds,
     ``RipsPersistence(subsample=n)`` selects points.
 

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""The common base of the vectors of lists of diagrams; `libph._vectors` computes them."""
+"""The common base of transformers from diagrams to vectors; `libph._vectors` computes the
+vectors."""
 from __future__ import annotations
 
 from typing import Any
@@ -96,7 +97,7 @@ class Vectoriser(MakesTables, TransformerMixin, TakesDiagrams):
         return self.n_features_in_ * len(self._endings())
 
     def _settled(self, samples: Samples) -> list[list[Diagram]]:
-        """The diagrams, with bars that never die treated as `infinity` says."""
+        """The diagrams, with bars that never die treated as `infinity` specifies."""
         rule = checked_infinity(self.infinity, self._may_keep)
         return [[settled(dgm, rule, f"sample {i}, {name}")
                  for dgm, name in zip(row, samples.names)] for i, row in enumerate(samples.rows)]

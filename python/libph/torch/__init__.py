@@ -1,15 +1,15 @@
 # SPDX-License-Identifier: MIT
 """Barcodes as differentiable functions of torch tensors.
 
-A step towards points with a larger loop::
+A step that makes the longest bar of H1 longer::
 
     X = torch.rand(100, 2, requires_grad=True)
     h1 = libph.torch.rips(X)[1]
     (h1[:, 1] - h1[:, 0]).max().backward()
     X.data += 0.1 * X.grad
 
-The gradients are the same as in `libph.gradients`, at ties as well. They are exact for tensors of
-type float64; for float32 they are rounded. The computation runs on the CPU, wherever the tensor is.
+The gradients are the same as in `libph.gradients`, also at ties. They are exact for tensors of type
+float64; for float32 they are rounded. The computation runs on the CPU, wherever the tensor is.
 There are no second derivatives.
 """
 from __future__ import annotations

@@ -44,9 +44,9 @@ std::shared_ptr<RunContext> new_context(const RunOptions& options) {
 
 /// The calls in progress, protected by the GIL.
 ///
-/// When Python ends, a thread that returns to Python from a call would be ended within C++, which
-/// would end the process. Therefore the last thing that Python does is to stop these calls and wait
-/// for their return.
+/// When Python exits, a thread that returns from a call to Python would be terminated within C++,
+/// which would end the process. Therefore Python's last action before it exits is to stop these
+/// calls and wait until they return.
 class Calls {
  public:
   /// Represents one call as long as the object lives. The GIL must be held when the object is made
@@ -82,7 +82,7 @@ class Calls {
   static void forget_all() { calls_.clear(); }
 
  private:
-  // No thread while Python continues.
+  // The thread that ends Python; no thread as long as Python runs.
   static inline std::thread::id ender_;
   static inline std::vector<const Call*> calls_;
 };

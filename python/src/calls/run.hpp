@@ -16,8 +16,8 @@ namespace ph::python {
 
 namespace py = pybind11;
 
-/// The options that bound, watch and stop a computation. They hold Python objects, so they must be
-/// made while the GIL is held.
+/// The options that limit, observe and stop a computation. They hold Python objects, so they must
+/// be made while the GIL is held.
 struct RunOptions {
   int threads = 0;  ///< 0 means one per core
   /// In bytes; if none, the free memory of the machine.

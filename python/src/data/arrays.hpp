@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-// This header contains arrays from and for Python. They use only the buffer protocol, so the module
-// works with any version of NumPy.
+// This header declares arrays that Python passes or receives. They use only the buffer protocol, so
+// the module works with any version of NumPy.
 #include <pybind11/pybind11.h>
 
 #include <cstddef>
@@ -88,7 +88,7 @@ bool holds(const py::buffer_info& array) {
 }
 
 /// The numbers of a contiguous array with one axis.
-/// @throws Error (internal) on another array, because Python prepares it.
+/// @throws Error (internal) on any other array, because the Python modules must have prepared it.
 template <class T>
 std::span<const T> numbers_of(const py::buffer_info& array) {
   if (!holds<T>(array) || array.ndim != 1 || (array.size > 1 && array.strides[0] != array.itemsize))
@@ -102,7 +102,7 @@ std::vector<T> vector_of(const py::buffer& array) {
   return {numbers.begin(), numbers.end()};
 }
 
-/// The type of the numbers of an image. @throws Error (internal) if images do not have this type.
+/// The type of the numbers of an image. @throws Error (internal) if images cannot have this type.
 VoxelType voxel_type_of(const py::buffer_info& array);
 
 /// The points of a float64 array with one point per row. Strides may be any multiples of the item

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// This file computes distances of diagrams, matchings and barycentres. A diagram is an array with
-// rows birth, death.
+// This file computes distances between diagrams, matchings and barycentres. A diagram is an array
+// with rows birth, death.
 #include "ph/distances.hpp"
 
 #include <algorithm>
@@ -88,7 +88,7 @@ std::vector<std::pair<std::int64_t, std::int64_t>> with_diagonal(const Bottlenec
   return pairs;
 }
 
-/// Returns the distance, a lower bound of it, and the pairs. There are no pairs if the distance is
+/// Returns the distance, a lower bound for it, and the pairs. There are no pairs if the distance is
 /// infinite.
 py::tuple matching(const py::buffer& a, const py::buffer& b, const DiagramMetric& metric,
                    const RunOptions& options) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// This file computes kernels of diagrams as Gram matrices.
+// This file computes kernels for diagrams as Gram matrices.
 #include <optional>
 #include <span>
 #include <string>

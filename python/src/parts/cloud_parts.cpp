@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// This file converts parts of a cloud to and from bytes.
+// This file computes and joins parts of a cloud, and computes bars from them. Python passes parts
+// as bytes.
 #include "ph/parts/cloud_part.hpp"
 
 #include <fmt/format.h>

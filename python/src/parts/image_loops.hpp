@@ -16,7 +16,7 @@
 
 namespace ph::python {
 
-/// The facts about the bars of a part before the bars are computed.
+/// The facts about the bars of a part that are known before the bars are computed.
 Facts facts_of(const ImagePart& part);
 
 /// A part of a volume with the voxels of its array, until ImageLoops takes them.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// This file converts parts of an image to and from bytes.
+// This file computes and joins parts of an image, and computes bars from them. Python passes parts
+// as bytes.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -5,8 +5,9 @@
 >>> ripser_parallel(np.array([[0, 0], [1, 0], [1, 1], [0, 1], [0, 1]]))["dgms"][1]
 array([[1.       , 1.4142135]], dtype=float32)
 
-The numbers are the same as in giotto-ph: in single precision, in its order. ``dtype=np.float64``
-gives exact numbers. docs/how-to/coming-from.md lists where libph deliberately answers differently.
+The numbers are the same as in giotto-ph: in single precision, and in the order of giotto-ph.
+``dtype=np.float64`` gives exact numbers. docs/how-to/coming-from.md lists the cases in which libph
+deliberately gives another answer.
 """
 from __future__ import annotations
 

@@ -6,8 +6,8 @@
 >>> tree.persistence(min_persistence=0.4)[0]
 (1, (1.0, 1.4142135623730951))
 
-Missing functions raise `NotBuiltIn`. docs/how-to/coming-from.md lists where libph deliberately
-answers differently.
+Missing functions raise `NotBuiltIn`. docs/how-to/coming-from.md lists the cases in which libph
+deliberately gives another answer.
 """
 from __future__ import annotations
 
@@ -55,14 +55,14 @@ def __getattr__(name: str) -> Any:
 
 
 def bottleneck_distance(diagram_1: Any, diagram_2: Any, e: float | None = None) -> float:
-    """The bottleneck distance of two diagrams.
+    """The bottleneck distance between two diagrams.
 
     Parameters
     ----------
     diagram_1, diagram_2 : array_like
         Rows birth, death.
     e : float, optional
-        The allowed error; libph is exact.
+        The allowed error. It has no effect, because libph is exact.
 
     Returns
     -------

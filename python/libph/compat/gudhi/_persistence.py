@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The methods of GUDHI's complexes about their bars."""
+"""The methods of GUDHI's complexes that compute and return bars."""
 from __future__ import annotations
 
 import numpy as np
@@ -16,7 +16,7 @@ class _OrderError(UsageError, RuntimeError):
 
 
 class Persistence:
-    """Keeps the computed bars, and returns them in the ways of GUDHI."""
+    """Keeps the computed bars, and returns them in the forms of GUDHI."""
 
     def __init__(self) -> None:
         self._found: Barcode | None = None
@@ -69,8 +69,8 @@ class Persistence:
         return [int((self._dgm(dim)[:, 1] == np.inf).sum()) for dim in range(self._dims)]
 
     def persistent_betti_numbers(self, from_value: float, to_value: float) -> list[int]:
-        """The number of bars of each dimension that are born up to `from_value` and die after
-        `to_value` or never."""
+        """The number of bars of each dimension that are born at or before `from_value` and die
+        after `to_value` or never."""
         self._barcode("persistent_betti_numbers")
         born = _options.real("from_value", from_value)
         alive = _options.real("to_value", to_value)

@@ -91,7 +91,7 @@ class FlagTree(Persistence):
                                  "complex; GUDHI has them")
             data, options, above, creators = self._skeleton(homology_coeff_field)
         if min_persistence < 0 and options["threshold"] is None:
-            # Beyond the enclosing radius there are bars of length zero.
+            # Beyond the enclosing radius, there are bars of length zero.
             options = {**options, "threshold": np.inf}
         barcode = rips(data, max_dim=self._dimension - 1, field=homology_coeff_field,
                        min_persistence=min_persistence, **options)
@@ -220,7 +220,7 @@ class RipsComplex:
 
 
 class WeightedRipsComplex:
-    """The Rips complex of points that enter late: at twice their weights.
+    """The Rips complex of points that enter at twice their weights.
 
     Parameters
     ----------
@@ -230,7 +230,7 @@ class WeightedRipsComplex:
         A number of at least 0 for each point. Two points are joined at their distance plus both
         weights.
     max_filtration : float
-        The largest value that enters.
+        The largest value at which cells enter.
     """
 
     def __init__(self, distance_matrix: ArrayLike, weights: ArrayLike | None = None,
@@ -247,7 +247,7 @@ class WeightedRipsComplex:
 
 
 class DTMRipsComplex(WeightedRipsComplex):
-    """The weighted Rips complex by the distance to a measure.
+    """The weighted Rips complex whose weights are distances to a measure.
 
     Parameters
     ----------
@@ -258,7 +258,7 @@ class DTMRipsComplex(WeightedRipsComplex):
     q : float
         The exponent of the mean of their distances.
     max_filtration : float
-        The largest value that enters.
+        The largest value at which cells enter.
     """
 
     def __init__(self, points: ArrayLike | None = None, distance_matrix: ArrayLike | None = None,

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""GUDHI's module hera: its distances of diagrams, exact."""
+"""GUDHI's module hera: its distances between diagrams, computed exactly."""
 from __future__ import annotations
 
 import math
@@ -18,14 +18,14 @@ class _WidthError(UsageError, TypeError):
 
 
 def bottleneck_distance(X: Any, Y: Any, delta: float = 0.01) -> float:
-    """The bottleneck distance of two diagrams.
+    """The bottleneck distance between two diagrams.
 
     Parameters
     ----------
     X, Y : array_like
         Rows birth, death.
     delta : float
-        The allowed error; libph is exact.
+        The allowed error. It has no effect, because libph is exact.
 
     Returns
     -------
@@ -44,7 +44,7 @@ def bottleneck_distance(X: Any, Y: Any, delta: float = 0.01) -> float:
 
 def wasserstein_distance(X: Any, Y: Any, order: float = 1.0, internal_p: float = float("inf"),
                          delta: float = 0.01, matching: bool = False) -> Any:
-    """The Wasserstein distance of two diagrams.
+    """The Wasserstein distance between two diagrams.
 
     Parameters
     ----------
@@ -55,7 +55,7 @@ def wasserstein_distance(X: Any, Y: Any, order: float = 1.0, internal_p: float =
     internal_p : float
         The norm that measures a pair, at least 1.
     delta : float
-        The allowed relative error; libph is exact.
+        The allowed relative error. It has no effect, because libph is exact.
     matching : bool
         If True, the matching is returned as well.
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""GUDHI's module wasserstein: the distance with its matching, exact."""
+"""GUDHI's module wasserstein: the exact distance and its matching."""
 from __future__ import annotations
 
 import math
@@ -17,7 +17,7 @@ __all__ = ["wasserstein_distance"]
 def wasserstein_distance(X: Any, Y: Any, matching: bool = False, order: float = 1.0,
                          internal_p: float = math.inf, enable_autodiff: bool = False,
                          keep_essential_parts: bool = True) -> Any:
-    """The Wasserstein distance of two diagrams.
+    """The Wasserstein distance between two diagrams.
 
     Parameters
     ----------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""giotto-ph's functions for edge collapse, over `libph.collapse`."""
+"""giotto-ph's functions for edge collapse, based on `libph.collapse`."""
 from __future__ import annotations
 
 import numpy as np
@@ -17,7 +17,7 @@ Edges = tuple[NDArray[np.int32], NDArray[np.int32], NDArray[np.float32]]
 
 def flag_complex_collapse_edges_coo(row: ArrayLike, column: ArrayLike, data: ArrayLike,
                                     thresh: float = np.inf) -> Edges:
-    """Collapses the edges above the diagonal: fewer edges with the same bars.
+    """Collapses the edges above the diagonal; the edges that are left have the same bars.
 
     Parameters
     ----------
@@ -29,7 +29,7 @@ def flag_complex_collapse_edges_coo(row: ArrayLike, column: ArrayLike, data: Arr
     Returns
     -------
     tuple of ndarray
-        Rows, columns and values, by row and column.
+        Rows, columns and values, sorted by row, then by column.
     """
     from scipy.sparse import coo_matrix
     i, j = _arrays.as_integers(row, "row"), _arrays.as_integers(column, "column")
@@ -58,7 +58,7 @@ def flag_complex_collapse_edges_dense(dm: ArrayLike, thresh: float = np.inf) -> 
     Returns
     -------
     tuple of ndarray
-        Rows, columns and values, by row and column.
+        Rows, columns and values, sorted by row, then by column.
     """
     matrix = _arrays.as_distances(dm, "dm")
     if matrix.ndim != 2:

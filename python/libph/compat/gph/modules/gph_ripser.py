@@ -5,5 +5,5 @@ __all__ = ["get_max_coefficient_field_supported"]
 
 
 def get_max_coefficient_field_supported() -> int:
-    """giotto-ph's bound of `coeff`. libph accepts primes up to 2**31 - 1."""
+    """giotto-ph's bound for `coeff`. libph accepts primes up to 2**31 - 1."""
     return 255

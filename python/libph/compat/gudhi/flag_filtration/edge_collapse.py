@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""GUDHI's function for edge collapse, over `libph.collapse`."""
+"""GUDHI's function for edge collapse, based on `libph.collapse`."""
 from __future__ import annotations
 
 from typing import Any
@@ -15,14 +15,14 @@ __all__ = ["reduce_graph"]
 
 
 def reduce_graph(input_edges: Any, nb_iterations: int = 1) -> Any:
-    """Collapses edges: fewer edges with the same bars.
+    """Collapses edges; the edges that are left have the same bars.
 
     Parameters
     ----------
     input_edges : scipy.sparse.coo_matrix
         Each edge once, in either triangle, with its value, of any sign.
     nb_iterations : int
-        The number of GUDHI's rounds. libph continues as long as it helps.
+        The number of rounds in GUDHI. It has no effect: libph continues as long as rounds help.
 
     Returns
     -------
