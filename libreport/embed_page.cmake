@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # cmake -DPAGE=FILE.html -DCODE=FILE.cpp -P embed_page.cmake: writes the template as a C++ string,
-# which is empty without PAGE. One raw string: compilers read it faster than numbers, and no
-# character is special.
+# which is empty without PAGE. The template is one raw string, because compilers read it faster than
+# an array of numbers, and no character needs an escape.
 set(delimiter "ph_page")
 set(text "")
 if(PAGE)

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 // For a complex or an engine of your own: base classes for complexes, and the engines for any
-// filtration, as templates. This header is costly to compile; persistence.hpp is enough to use the
-// complexes of libph.
+// filtration, as templates. This header is slow to compile; persistence.hpp is enough for programs
+// that use only the complexes of libph.
 #include <algorithm>
 #include <string>
 #include <utility>

@@ -33,7 +33,7 @@ struct SimplexList {
   }
 };
 
-/// A boundary matrix by columns: column i is cell i of dimension dims[i], with the facets
+/// A boundary matrix, stored by columns: column i is cell i of dimension dims[i], with the facets
 /// rows[offsets[i] … offsets[i+1]) and their incidence numbers at the same positions of
 /// `incidences`.
 struct BoundaryMatrix {

@@ -85,7 +85,7 @@ concept CofacetFiltration =
       /// stop.
       f.for_each_cofacet(dim, cell, [](const typename F::Cell&, int) { return true; });
       /// Capability: the first visited cofacet with the cell's own key precedes all others with
-      /// that key. `false` is always safe and costs speed; a wrong `true` gives wrong barcodes.
+      /// that key. `false` is always safe, but slower; a wrong `true` gives wrong barcodes.
       { F::first_equal_cofacet_is_oldest } -> std::convertible_to<bool>;
     };
 

@@ -15,9 +15,9 @@ class Cubical;
 class Alpha;
 class ExplicitComplex;
 
-/// Two components become one. The elder component lives on. It is the one born first; among equals,
-/// the one whose oldest vertex comes first in the order of the filtration (in Rips, the smaller
-/// number).
+/// Two components become one. The elder component survives. It is the component that was born
+/// first; among equals, it is the component whose oldest vertex comes first in the order of the
+/// filtration (in a Rips filtration, the vertex with the smaller number).
 struct Merge {
   double value = 0;        ///< filtration value of the edge
   Index u = 0, v = 0;      ///< the edge that joined them: an edge of a minimum spanning forest

@@ -83,7 +83,7 @@ Barcode persistence(const Data&, const Options& = {}, const RunContext& = defaul
   return Barcode(CellKind::vertices);
 }
 
-/// Any of the complexes above, for programs that learn the type at run time.
+/// Any of the complexes above, for programs that know the type only at run time.
 using AnyComplex = std::variant<Rips, Cubical, ExplicitComplex, Alpha>;
 Barcode persistence(const AnyComplex& complex, const Options& options = {},
                     const RunContext& context = default_context());

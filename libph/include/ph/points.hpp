@@ -60,7 +60,7 @@ class PointsView {
   constexpr double operator()(Index i, Index k) const {
     return data_[i * row_stride_ + k * column_stride_];
   }
-  /// True if the coordinates of each point lie side by side.
+  /// True if the coordinates of each point are contiguous in memory.
   constexpr bool has_whole_rows() const { return column_stride_ == 1 || columns_ <= 1; }
   /// The coordinates of a point. Precondition: has_whole_rows().
   constexpr const double* row(Index i) const { return data_ + i * row_stride_; }
@@ -149,8 +149,8 @@ class Points {
   Data data_;
 };
 
-/// Points whose coordinates lie side by side: the points of a view if it has whole rows, otherwise
-/// a copy. PointMetric holds one, for code that reads entire rows.
+/// Points whose coordinates are contiguous in memory: the points of a view if it has whole rows,
+/// otherwise a copy. PointMetric holds one, for code that reads entire rows.
 class WholeRows {
  public:
   explicit WholeRows(PointsView view) : view_(view) {

@@ -23,7 +23,7 @@ class MemoryBudget final : public std::pmr::memory_resource {
   static constexpr std::size_t kUnlimited = SIZE_MAX;
 
   explicit MemoryBudget(std::size_t limit_bytes = kUnlimited) : limit_(limit_bytes) {}
-  /// A budget inside another one, which must outlive it: memory taken here counts against both
+  /// A budget inside another budget, which must outlive it. Memory taken here counts against both
   /// limits.
   explicit MemoryBudget(MemoryBudget& parent) : parent_(&parent), limit_(kUnlimited) {}
   MemoryBudget(const MemoryBudget&) = delete;

@@ -114,7 +114,7 @@ struct PermutationOptions {
 
 struct PermutationTest {
   /// (1 + the number of shuffles whose loss is at most the observed loss) / (1 + the number of all
-  /// shuffles). If the groups came from one distribution, p would be at most t with probability t.
+  /// shuffles). If all groups follow one distribution, p is at most t with probability t.
   double p = 1;
   /// The observed loss: for each group, half the mean of distance^power over all pairs within the
   /// group, summed over the groups. Infinite if doubles cannot hold it.

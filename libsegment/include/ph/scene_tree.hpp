@@ -196,7 +196,7 @@ struct SceneCut {
 
 /// Makes a coarser or finer cut within milliseconds, without a new segmentation. It determines anew
 /// which voxels are near each other, which parts make an object (not paper), which segments touch,
-/// and the properties of each segment; planes, voxels, normals and the tree come from `scene`.
+/// and the properties of each segment; planes, voxels, normals and the tree are taken from `scene`.
 /// `cut(scene, scene.first_cut)` gives the result of ph::segment::segment.
 /// @throws Error (usage) on an option out of its range, or a distance beyond the tree's; Error
 ///         (bad_data) if arrays of the scene disagree. All functions below throw the same errors.

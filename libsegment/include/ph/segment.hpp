@@ -110,7 +110,7 @@ struct Stage {
 /// The fit of the viewpoint to the supporting plane: shares of the points that are in range and not
 /// on the plane.
 struct PlaneSight {
-  double behind = 0;  ///< behind the plane as seen from the viewpoint, past its edge or hidden
+  double behind = 0;  ///< behind the plane as seen from the viewpoint: past its edge, or hidden
   double hidden = 0;  ///< behind points of the plane: no sensor at the viewpoint could see them
 };
 

@@ -44,9 +44,9 @@ def barycentre(diagrams: Iterable[Barcode | ArrayLike], dim: int | None = None, 
                ) -> Barycentre:
     """A barycentre (Fréchet mean) of diagrams [Turner, Mileyko, Mukherjee, Harer 2014].
 
-    A local minimum of the mean square of the Wasserstein distances of order 2 with Euclidean ground
-    norm. The search starts at the medoid. Each bar of the result is the mean of the bars with which
-    it is paired; many bars of the result may be short.
+    The result is a local minimum of the mean square of the Wasserstein distances to the diagrams
+    (order 2, Euclidean ground norm). The search starts at the medoid. Each bar of the result is the
+    mean of the bars with which it is paired; many bars of the result may be short.
 
     Parameters
     ----------

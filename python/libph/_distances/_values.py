@@ -35,9 +35,10 @@ def bottleneck(a: Any, b: Any, dim: int | None = None, *, relative_error: float 
                at_most: float = math.inf, **run: Unpack[RunOptions]) -> float | dict[int, float]:
     """The exact bottleneck distance between two barcodes.
 
-    Bars are paired or left over. The distance is the least d such that births and deaths of each
-    pair are at most d apart, and bars left over are at most 2 d long. Bars that never die are
-    paired only with each other; if their numbers differ, the distance is inf.
+    Each bar is paired with a bar of the other barcode, or left over. The distance is the least d
+    such that births and deaths of each pair are at most d apart, and bars left over are at most 2 d
+    long. Bars that never die are paired only with each other; if their numbers differ, the distance
+    is inf.
 
     Parameters
     ----------
@@ -85,10 +86,10 @@ def wasserstein(a: Any, b: Any, dim: int | None = None, *, order: float = 1.0,
                 **run: Unpack[RunOptions]) -> float | dict[int, float]:
     """The Wasserstein distance between two barcodes, exact or with a certified error bound.
 
-    Bars are paired or left over. A pair costs its distance to the power of `order`; a bar left over
-    costs its distance from the diagonal to the same power. The Wasserstein distance is the root, of
-    degree `order`, of the least sum. Bars that never die are paired only with each other; if their
-    numbers differ, the distance is inf.
+    Each bar is paired with a bar of the other barcode, or left over. A pair costs its distance to
+    the power of `order`; a bar left over costs its distance from the diagonal to the same power.
+    The Wasserstein distance is the root, of degree `order`, of the least sum. Bars that never die
+    are paired only with each other; if their numbers differ, the distance is inf.
 
     Parameters
     ----------

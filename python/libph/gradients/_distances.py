@@ -18,7 +18,7 @@ class Distances:
     size: int
 
     def between(self, i: Integers, j: Integers) -> Numbers:
-        """The distances of pairs."""
+        """The distance of each pair."""
         raise NotImplementedError
 
     def rows(self, i: Integers) -> Numbers:

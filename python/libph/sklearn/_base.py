@@ -28,8 +28,8 @@ def table_of(estimator: BaseEstimator, X: Any, reset: bool) -> NDArray[np.float6
 class MakesTables:
     """`set_output` for transformers of lists.
 
-    The method of scikit-learn 1.2 fails for lists, because it mistakes their method `index` for row
-    names. Moreover, pandas would take diagrams apart.
+    `set_output` of scikit-learn 1.2 fails for lists, because it mistakes their method `index` for
+    row names. Moreover, pandas would take diagrams apart.
     """
 
     def __init_subclass__(cls, **how: Any) -> None:

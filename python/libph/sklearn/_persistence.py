@@ -127,7 +127,7 @@ class _Persistence(MakesTables, TransformerMixin, TakesLists):
 
 
 def _are_several(dims: Any) -> bool:
-    """True for a list of dimensions, or the like."""
+    """True for a list or another iterable of dimensions."""
     return (isinstance(dims, Iterable) and not isinstance(dims, (str, bytes))
             and getattr(dims, "ndim", 1) > 0)
 

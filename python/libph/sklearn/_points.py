@@ -70,7 +70,7 @@ class DistanceToMeasure(ClassNamePrefixFeaturesOutMixin, TransformerMixin, BaseE
         return self
 
     def transform(self, X: Any) -> NDArray[np.float64]:
-        """The distance of each row.
+        """The distance of each row to the measure.
 
         Parameters
         ----------

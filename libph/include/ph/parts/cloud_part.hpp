@@ -55,8 +55,8 @@ class CloudPart {
   /// points of a block and the points near it, about 200 bytes per point, and 16 to 24 bytes per
   /// edge found. The points may therefore be a mapped file that is larger than the memory.
   /// @param points the entire cloud, one point per row. @param part counted from 0.
-  /// @param context must outlive the part and the part that it is joined with; the same holds for
-  /// `of_bytes`.
+  /// @param context must outlive this part and every part with which it is joined; the same applies
+  /// to the context of `of_bytes`.
   /// @throws Error (usage) on invalid options and parts, (bad_data) as PointMetric, (resource),
   /// (cancelled).
   CloudPart(PointsView points, int part, int parts, const CloudPartOptions& options = {},

@@ -60,8 +60,8 @@ class ImagePart {
   /// axis, or the layers that the options name. Reads only the voxels of these layers and of one
   /// layer on either side.
   /// @param part counted from 0. @param parts at most one per layer.
-  /// @param context must outlive the part and the part that it is joined with; the same holds for
-  /// `of_bytes`.
+  /// @param context must outlive this part and every part with which it is joined; the same applies
+  /// to the context of `of_bytes`.
   /// @throws Error (usage) on invalid options and parts, (bad_data) and (resource) as Cubical,
   ///         (cancelled).
   ImagePart(const Image& image, int part, int parts, const ImagePartOptions& options = {},

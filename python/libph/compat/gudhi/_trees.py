@@ -31,7 +31,7 @@ _TREE_METHODS = {
 class FlagTree(Persistence):
     """A Rips complex, up to a dimension. Simplices are not listed.
 
-    Made by `RipsComplex.create_simplex_tree` and the like.
+    Made by `RipsComplex.create_simplex_tree` and similar methods.
     """
 
     def __init__(self, data: Any, options: dict[str, Any], max_dimension: int) -> None:

@@ -45,8 +45,8 @@ namespace detail {
 /// enter before one of its faces. An engine that notices a violation or a NaN throws an Error
 /// (bad_data). Several threads may call these members at once.
 ///
-/// Nothing is stored. Listing the facets of a cell of dimension d costs up to d + 1 calls of
-/// simplex_value; listing its cofacets costs one call per vertex. Order: (value, dimension,
+/// Nothing is stored. Listing the facets of a cell of dimension d takes up to d + 1 calls of
+/// simplex_value; listing its cofacets takes one call per vertex. Order: (value, dimension,
 /// vertices).
 /// @tparam TopDim simplices of higher dimensions are left out, which does not change the homology
 /// below TopDim.

@@ -29,7 +29,7 @@ class ComponentRepresentatives {
   /// Sets the representative of the last bar added. @param cell_of maps a vertex to its cell.
   /// @param v the oldest vertex of the component.
   /// @param elder the oldest vertex of the component that v's component is about to join, or none
-  /// if v's component lives on.
+  /// if v's component survives.
   template <class CellOf>
   void give(std::uint32_t v, std::optional<std::uint32_t> elder, CellOf&& cell_of) {
     if (is_wanted(Representatives::none)) return;

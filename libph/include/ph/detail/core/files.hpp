@@ -67,7 +67,7 @@ std::optional<int> descriptor_named(std::filesystem::path path);
 /// True if the descriptor is open for writing.
 bool may_write(int file);
 
-/// The name of the file itself, without links: replacing it affects all names of the file.
+/// The name of the file itself, with all links resolved: replacing this file affects all its names.
 std::filesystem::path resolved(const std::filesystem::path& path);
 bool may_write(const std::filesystem::path& path);
 /// True if a new file can replace a file that may be written.

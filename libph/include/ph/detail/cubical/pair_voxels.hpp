@@ -34,7 +34,8 @@ bool can_be_cut(const CubicalImage& grid, const BarRequest& wanted);
 /// near-linear for H0 and the second highest dimension, plus a reduction of critical cells for the
 /// dimensions between them. Memory: 8 bytes per voxel, the critical cells, and for more than three
 /// axes another 2 bytes per cell.
-/// @throws Error (resource) if loops of three axes are wanted for too many voxels.
+/// @throws Error (resource) if loops are wanted in an image that has three axes and too many
+///         voxels.
 template <Field K>
 void pair_voxels(const CubicalImage& grid, const K& field, const BarRequest& wanted,
                  const RunContext& context, const BarSink& sink);

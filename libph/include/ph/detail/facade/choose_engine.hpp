@@ -61,8 +61,8 @@ Plan<F> plan_for(const F& f, const Options& options) {
   bool has_incidences = true;
   if constexpr (requires { f.has_incidences(); }) has_incidences = f.has_incidences();
   check_as_it_is(options, has_incidences);
-  // Low dimensions are tried before the top dimension is determined, because this takes time and
-  // memory for a flag complex.
+  // Low dimensions are tried before the top dimension is determined, because determining it takes
+  // time and memory for a flag complex.
   if (options.max_dim && *options.max_dim <= 3) {
     const EngineChoice<F> choice =
         choose_engine(f, options.engine, task_of(options, *options.max_dim));

@@ -28,10 +28,10 @@ void require_unpacked(const std::string& path);
 /// A regular file is written into an unnamed or temporary file in the same folder, which `commit`
 /// flushes to disk and renames; the output may therefore be one of the program's own inputs.
 /// Without `commit` nothing is left behind. Some targets cannot be replaced and are written
-/// directly: "-" (standard output), /dev/stdout and other names of descriptors, the file that
-/// standard output goes to, devices, FIFOs. A symbolic link is followed. The new file takes the
-/// mode of the file that it replaces, except for set-ID bits, and also the owner and group if that
-/// is allowed.
+/// directly: "-" (standard output), /dev/stdout and other names of descriptors, the file to which
+/// standard output is redirected, devices, FIFOs. A symbolic link is followed. The new file takes
+/// the mode of the file that it replaces, except for set-ID bits, and also the owner and group if
+/// that is allowed.
 class OutputFile {
  public:
   /// @param path "-" for standard output.
@@ -50,7 +50,7 @@ class OutputFile {
   /// Passes on everything written so far; a program that follows the output can then read it.
   /// @throws Error (io), BrokenPipe.
   void flush();
-  /// Waits until the bytes written are on the disk; it does nothing if the system cannot tell.
+  /// Waits until the bytes written are on the disk; does nothing if the system cannot do this.
   /// @throws Error (io), BrokenPipe.
   void sync();
   /// Completes the file, flushes it to disk and gives it its name. Nothing may be written after

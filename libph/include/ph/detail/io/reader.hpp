@@ -101,8 +101,8 @@ class Input {
   /// @throws Error (resource) if the run's budget does not allow `bytes` more bytes. Allocates
   /// nothing.
   void require_memory(std::size_t bytes) const;
-  /// Reports to the run how many bytes are done, if the run asked for progress. @throws Error
-  /// (cancelled) once a stop was requested.
+  /// Reports to the run how many bytes are done, if the run requested progress reports. @throws
+  /// Error (cancelled) once a stop was requested.
   void poll(std::size_t done = 0) const;
 
   /// Throws Error (bad_data): "name: what, found X, expected Y; hint".

@@ -99,7 +99,7 @@ class PointMetric {
   Index size() const { return points().rows(); }
   /// @throws Error (bad_data) if the distance exceeds the largest double.
   double operator()(Index i, Index j) const;
-  /// The points, with their coordinates side by side.
+  /// The points, each with contiguous coordinates.
   PointsView points() const { return points_.view(); }
   /// True if distances are square roots of sums of squares, none of which overflows; only a
   /// non-zero sum below kLeastPlainSquare may have lost digits.

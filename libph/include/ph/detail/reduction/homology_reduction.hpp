@@ -19,9 +19,9 @@ namespace ph {
 /// Reduces boundary columns, one dimension after the other, oldest first, with clearing (Chen &
 /// Kerber, Persistent homology computation with a twist): a cell found as a pivot needs no column
 /// of its own in the next dimension. A column to which nothing was added is not stored but listed
-/// again when needed. Other columns are kept as the reduced boundary, a cycle that is a boundary
-/// from the death on: the representative of a finite bar. An infinite bar needs the chain whose
-/// boundary vanished; with representatives, the chains are kept as well.
+/// again when needed. Every other column is kept as its reduced boundary. This cycle becomes a
+/// boundary at the death, and represents the finite bar. An infinite bar is represented by the
+/// chain whose boundary vanished; if representatives are wanted, these chains are kept as well.
 template <Filtration F, Field K>
 class HomologyReduction {
  public:

@@ -16,7 +16,7 @@ struct TwistEngine {
   }
   /// Chosen by measurement. If cells are numbered, columns are few and short in both directions,
   /// and reducing boundaries is faster. If cells are not numbered, listing the cells of the next
-  /// dimension costs too much.
+  /// dimension takes too much time.
   template <Filtration F>
   static Suitability suitability(const F&, const Task&) {
     if (SlottedFiltration<F>) return {3, "the complex numbers its cells"};

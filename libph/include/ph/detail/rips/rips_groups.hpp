@@ -21,8 +21,8 @@ class RipsGroups {
 
   /// O(n^2 / 64 + edges).
   explicit RipsGroups(const RipsGraph& graph);
-  /// True if n^2 / 8 bytes, the size of this object, are few in themselves or compared with the
-  /// graph.
+  /// True if n^2 / 8 bytes, the size of this object, are little memory, in absolute terms or
+  /// compared with the graph.
   static bool are_affordable(const RipsGraph& graph);
 
   /// Goes to the simplices whose longest edge is `key`, which is fast if `key` is near the current

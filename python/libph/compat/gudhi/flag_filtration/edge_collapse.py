@@ -22,7 +22,8 @@ def reduce_graph(input_edges: Any, nb_iterations: int = 1) -> Any:
     input_edges : scipy.sparse.coo_matrix
         Each edge once, in either triangle, with its value, of any sign.
     nb_iterations : int
-        The number of rounds in GUDHI. It has no effect: libph continues as long as rounds help.
+        The number of rounds in GUDHI. With 0, nothing is collapsed. With any other number, libph
+        continues as long as rounds help.
 
     Returns
     -------
