@@ -129,8 +129,8 @@ class Alpha {
   /// filtration keeps them. Thread-safe. @throws Error (resource) and (cancelled).
   void prepare(const RunContext& context) const;
   /// This complex as a list of simplices, in the form that other parts of libph use. The list is
-  /// made by `prepare` or by the first call. Its values are squared radii, in a unit that is a
-  /// power of two.
+  /// made by `prepare` or by the first call. Its values are squared radii, scaled by a power of
+  /// two.
   const ExplicitComplex& listed() const;
 
   int top_dim() const { return top_dim_; }
@@ -187,8 +187,8 @@ class Alpha {
 struct SurfaceMesh {
   std::vector<std::array<Index, 3>> triangles;
   /// The first `regular` triangles have a tetrahedron on exactly one side, and are counterclockwise
-  /// as seen from the other side. The remaining, *singular* ones have no tetrahedron on either
-  /// side.
+  /// as seen from the other side. The remaining triangles are *singular*: they have no tetrahedron
+  /// on either side.
   std::size_t regular = 0;
 };
 

@@ -131,7 +131,8 @@ class Barcode {
 
   /// Makes room for `count` more bars.
   void reserve_more(std::size_t count) {
-    // Grows by a quarter, because the old and the new array exist side by side for a while.
+    // Grows only by a quarter, because the old and the new array exist at the same time during the
+    // move.
     if (bars_.capacity() - bars_.size() < count)
       bars_.reserve(bars_.size() + std::max(count, bars_.size() / 4));
   }

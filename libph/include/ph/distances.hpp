@@ -61,7 +61,7 @@ DistanceBounds bottleneck_bounds(std::span<const Bar> a, std::span<const Bar> b,
                                  const DistanceLimits& limits,
                                  const RunContext& context = default_context());
 
-/// A pairing of two diagrams that costs no more than their bottleneck distance.
+/// A pairing between two diagrams whose cost is at most their bottleneck distance.
 struct BottleneckMatching {
   double distance = 0;  ///< infinite: there are no pairs in that case
   /// Positions in `a` and in `b`, ascending in `a`, each bar in at most one pair. Bars of length 2
@@ -70,8 +70,9 @@ struct BottleneckMatching {
 };
 
 /// A pairing that attains the bottleneck distance. Births and deaths of a pair differ by at most
-/// that distance, and bars without a pair are at most twice that distance long. Cost, parameters
-/// and errors are as for bottleneck_distance, for fewer than 2³² bars each.
+/// that distance, and bars without a pair are at most twice that distance long. Running time,
+/// parameters and errors are as for bottleneck_distance; each diagram must have fewer than 2³²
+/// bars.
 BottleneckMatching bottleneck_matching(std::span<const Bar> a, std::span<const Bar> b,
                                        const RunContext& context = default_context());
 
@@ -126,7 +127,7 @@ struct WassersteinMatching {
 };
 
 /// A matching that attains the upper bound of the Wasserstein distance: its cost is distance.value.
-/// Cost, parameters and errors are as for wasserstein_distance.
+/// Running time, parameters and errors are as for wasserstein_distance.
 WassersteinMatching wasserstein_matching(std::span<const Bar> a, std::span<const Bar> b,
                                          const WassersteinOptions& options = {},
                                          const RunContext& context = default_context());
@@ -159,7 +160,7 @@ using DiagramDistance =
     std::function<double(std::span<const Bar>, std::span<const Bar>, const RunContext&)>;
 
 /// The distance between each pair of diagrams. Threads share the pairs, the largest first; the
-/// result depends neither on the threads nor on the order in which pairs are done.
+/// result depends neither on the threads nor on the order in which the pairs are computed.
 /// @param distance symmetric; it is called once per pair, with a context for one thread, which can
 ///        be stopped and has an equal share of the remaining memory.
 /// @throws what `distance` throws; Error (cancelled).
@@ -201,10 +202,10 @@ struct Barycentre {
 ///
 /// Infinite bars are averaged in the order of their finite ends. Bars of length 0 do not count.
 /// Sources: Turner, Mileyko, Mukherjee, Harer, Fréchet means for distributions of persistence
-/// diagrams, 2014 (alternation; it lowers the mean square until it ends); Vidal, Budin, Tierny,
-/// Progressive Wasserstein barycenters of persistence diagrams, 2020. The search takes about 1 to
-/// 15 rounds of N matchings each, after N²/2 distances. Threads share the diagrams; the result does
-/// not depend on the number of threads.
+/// diagrams, 2014 (the alternation, which lowers the mean square until it ends); Vidal, Budin,
+/// Tierny, Progressive Wasserstein barycenters of persistence diagrams, 2020. The search takes
+/// about 1 to 15 rounds of N matchings each, after N²/2 distances. Threads share the diagrams; the
+/// result does not depend on the number of threads.
 /// @throws Error (usage) on no diagram or options out of range; Error (bad_data) on a NaN, a death
 ///         before its birth, or diagrams with different numbers of infinite bars; Error (resource,
 ///         cancelled).

@@ -32,10 +32,8 @@ inline constexpr std::array names_of<CellKind>{
     Named{CellKind::row, "row"},
 };
 
-// THE CONTRACT
-// ============
-// Data become a filtration, and an engine turns a filtration into a barcode. An engine knows only
-// this contract about a complex; a complex knows nothing about engines.
+// THE CONTRACT ============ Data become a filtration, and an engine turns a filtration into a
+// barcode. An engine relies only on this contract, and a complex knows nothing about engines.
 //
 // Order. Each filtration owns one strict total order of its cells that refines the value and puts
 // faces before cofaces: (key, dimension, index). Engines only ever compare cells of one dimension

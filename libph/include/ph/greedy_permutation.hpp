@@ -40,7 +40,7 @@ struct GreedyPermutation {
 // subsample is born and dies no earlier than its partner, and at most 2e later; only bars of length
 // 2e or less, of either barcode, are left unmatched. See docs/explanation/approximation.md.
 
-/// The permutation of points; the same as for their metric.
+/// The permutation of points; it is the same as the permutation for their metric.
 /// @param points one point per row. @param p exponent of PointDistance::minkowski.
 /// @throws Error (bad_data) as PointMetric; Error (usage) on limits out of range.
 GreedyPermutation greedy_permutation(PointsView points, const GreedyLimits& limits = {},

@@ -32,8 +32,8 @@ namespace ph {
 /// limit does not allow this, loops are not tightened, and may even have no lengths.
 ///
 /// @param cycles the bars of the complex, computed with Representatives::cycles, or with ::voxels,
-///        where only bars with a cycle get loops. @param options the options that the bars were
-///        computed with, or RunPlan::options, which avoids planning again and leaves less to
+///        where only bars with a cycle get loops. @param options the options with which the bars
+///        were computed, or RunPlan::options, which make a new plan unnecessary and shorten the
 ///        search. @param tighten true if loops should be tightened.
 /// @return the loops of each bar; no loops for bars of other dimensions, bars without a chain, or
 ///         bars whose cells are rows of a boundary matrix.

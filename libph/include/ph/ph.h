@@ -42,8 +42,8 @@ typedef enum ph_status {
 /** One line about this thread's last call that did not return PH_OK; never NULL. */
 PH_API const char* ph_last_error(void);
 
-/** How voxels become cubes: a voxel is a vertex, and a cube enters with its last vertex; or a voxel
- * is a top cube, and a face enters with its first cube. */
+/** How voxels become cubes. PH_VERTICES: voxels are vertices, and a cube enters with its last
+ * vertex. PH_CELLS: voxels are top cubes, and a face enters with its first cube. */
 typedef enum ph_construction { PH_VERTICES = 0, PH_CELLS = 1 } ph_construction;
 typedef enum ph_distance {
   PH_EUCLIDEAN = 0,

@@ -54,8 +54,9 @@ struct RipsOptions {
   std::optional<double> approximation = std::nullopt;
   /// True: equal points become one vertex, named by the first of them, unless they have births. All
   /// bars of positive length stay the same; bars of length zero that copies cause are left out.
-  /// Cycles are cycles of all points; cocycles are cocycles of the distinct points. False: each
-  /// point is a vertex. Default: points are merged if that does not change the result.
+  /// Cycles are cycles in the complex of all points; cocycles are cocycles only in the complex of
+  /// the distinct points. False: each point is a vertex. Default: points are merged if that does
+  /// not change the result.
   std::optional<bool> merge_equal_points = std::nullopt;
   /// With Device::gpu, the GPU finds the spanning forest of H0, which is the same forest as on the
   /// CPU, edge by edge. Only for Euclidean points without births whose largest coordinate is 0 or
@@ -91,8 +92,8 @@ struct RipsSample {
 /// The Vietoris-Rips filtration of a finite set with distances: a simplex enters at its diameter,
 /// the largest distance between two of its vertices. Vertices enter at 0. Vertex i is point i,
 /// unless some points are left out or equal points are merged. In weighted Rips filtrations,
-/// vertices enter at their births instead of 0, and edges enter when balls meet instead of at the
-/// distance.
+/// vertices enter at their births instead of 0, and edges enter when balls meet instead of at their
+/// length.
 ///
 /// An object defines a filtration: the constructor checks options and coordinates and makes no
 /// edges. Forms are made when a computation needs them, each form once. A Rips object is a value:
@@ -117,7 +118,7 @@ class Rips {
   /// @throws Error (usage) also on options that require all distances.
   explicit Rips(SparseDistances distances, RipsOptions options = {},
                 const RunContext& context = default_context());
-  /// Any metric of the user: an object with `size()` and `operator()(Index, Index)`. A copy of the
+  /// Any user-defined metric: an object with `size()` and `operator()(Index, Index)`. A copy of the
   /// object is kept; data that it refers to must live as long. A NaN or negative distance is an
   /// error once a form is made.
   template <Metric M>

@@ -134,10 +134,10 @@ void silhouette(std::span<const Bar> bars, const Grid& grid, double power, std::
 /// death - t)), to the last bit. There is no factor √2. Bars that never die are allowed and grow
 /// forever; bars born at -infinity are refused.
 ///
-/// Source: Bubenik, Statistical topological data analysis using persistence landscapes, 2015. Bars
-/// that grow at t and bars that shrink are sorted into grid cells by their turning point; the best
-/// bars of either kind are kept while the grid is walked once down and once up. O((n + m) layers)
-/// at most.
+/// Source: Bubenik, Statistical topological data analysis using persistence landscapes, 2015. At t,
+/// the function of a bar rises or falls. The bars of either kind are sorted into grid cells by
+/// their turning points, and the best bars of either kind are kept while the grid is traversed once
+/// downwards and once upwards. O((n + m) layers) at most.
 /// @param layers at least 1. @param out layers × grid.points, one row per layer.
 void landscape(std::span<const Bar> bars, const Grid& grid, std::size_t layers,
                std::span<double> out, const RunContext& context = default_context());

@@ -23,10 +23,10 @@ struct ScenePage {
 };
 
 /// Writes the page: the points with their colours, normals and ground truth (which the segmentation
-/// never reads), the segments and surfaces with their properties, the merge tree contracted to what
-/// cuts can separate, and the bars of positive length. At the cut of the segmentation, the page
-/// shows exactly this segmentation; any other cut gives the segments and surfaces of `ph-segment
-/// --cut` with `--parts`.
+/// never reads), the segments and surfaces with their properties, the merge tree (in which vertices
+/// that no cut can separate are contracted), and the bars of positive length. At the cut of the
+/// segmentation, the page shows exactly this segmentation; any other cut gives the segments and
+/// surfaces of `ph-segment --cut` with `--parts`.
 /// @throws Error (not_built_in) if this build has no page; Error (resource, cancelled); errors of
 ///     `sink`.
 void write_page(const Sink& sink, const ScenePage& page, const RunContext& context);

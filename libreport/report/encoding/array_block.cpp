@@ -68,7 +68,7 @@ class DeflatedText {
 
 /// Writes the numbers byte by byte in the order in which they are compressed. The lowest bytes of
 /// all numbers come first, then their second bytes, and so on. With `delta`, each number is first
-/// replaced by its difference from the same column of the row before.
+/// replaced by its difference from the same column of the previous row.
 /// @param Word the unsigned integer type that is as wide as a number. Differences modulo its range
 /// also work for signed numbers.
 template <class Word>

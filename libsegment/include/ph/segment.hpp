@@ -37,8 +37,8 @@ struct CloudView {
   Index rows() const { return organised() ? height : 1; }
 };
 
-/// The defaults suit a table top that a structured-light or time-of-flight camera sees from about a
-/// metre.
+/// The defaults suit a table top that a structured-light or time-of-flight camera sees from a
+/// distance of about one metre.
 struct SegmentOptions {
   Method method = Method::surface;
   /// Edge of a voxel, metres, > 0. If not given: see voxel_size; method surface uses a larger edge
@@ -55,8 +55,8 @@ struct SegmentOptions {
   std::optional<double> plane_distance = {};
   /// Methods surface and supervoxels: the noise of depth grows with the square of the range, and so
   /// does the margin of the plane. At a range of one metre, half the margin is at least this many
-  /// metres (>= 0) and at least four standard deviations of the noise that is found; 0: the margin
-  /// is plane_distance everywhere. If a smaller plane_distance is given, it takes precedence.
+  /// metres (>= 0) and at least four standard deviations of the measured noise; 0: the margin is
+  /// plane_distance everywhere. If a smaller plane_distance is given, it takes precedence.
   double plane_noise = 0.005;
   /// Position of the sensor. By default it is where the pixels' rays of an organised cloud meet, if
   /// this place can be determined and differs from the cloud's viewpoint; otherwise it is the

@@ -65,8 +65,8 @@ struct DepthCounts {
 };
 
 /// The organised cloud of a depth image: x right, y down, z forward, metres; fields x y z (float32)
-/// and, with a colour image, rgba (uint32). Depth is along z. A depth that is not finite and above
-/// 0 is a hole.
+/// and, with a colour image, rgba (uint32). Depth is along z. A pixel whose depth is infinite, NaN,
+/// or not above 0 becomes a hole.
 /// @param depth an image with two axes. @param colour grey or RGB(A), of the same size.
 /// @param camera its size must be the size of the image, or 0.
 /// @param depth_scale depth units per metre: 1000 for millimetres.

@@ -45,7 +45,7 @@ struct PlotOptions {
   std::optional<PlotSize> size = {};
   PlotAxis axis = {};
   /// True if values belong to negated data (superlevel sets): the axis shows the data's own values,
-  /// which then fall from left to right. `axis` is in the data's own values.
+  /// which then decrease from left to right. `axis` is in the data's own values.
   bool negated = false;
 };
 

@@ -203,9 +203,9 @@ struct PerseusImage {
 
 /// Perseus' cubical text. Either a grid: dimension, a size for each axis (negative: periodic, as in
 /// GUDHI), the values with the first axis fastest. Or a list of cubes: dimension, then one cube per
-/// line with its coordinates, counted from 0, and its value; other cubes never enter. A value of -1
-/// never enters if all other values are positive integers, as in Perseus; otherwise it is a value,
-/// as in GUDHI. A note says which applies.
+/// line with its coordinates, counted from 0, and its value; other cubes never enter. A cube with
+/// the value -1 never enters if all other values are positive integers, as in Perseus; otherwise,
+/// -1 is an ordinary value, as in GUDHI. A note states which rule applies.
 PerseusImage read_perseus(const std::filesystem::path& path, const ReadOptions& options = {});
 PerseusImage read_perseus(const Input& input, const ReadOptions& options = {});
 
@@ -214,7 +214,7 @@ struct SimplicesInput {
   SimplexList simplices;
   std::vector<std::size_t> lines;  ///< simplex i is on lines[i], from 1
   std::string name;                ///< printable name of the file
-  /// Values on the vertices 0, 1, …, from a file of their own (read_any); otherwise empty.
+  /// Values on the vertices 0, 1, …, from a separate file (read_any); otherwise empty.
   std::vector<double> vertex_values;
 
   /// Names a simplex in messages as "name:line". The result may outlive this object.

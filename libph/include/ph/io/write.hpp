@@ -38,7 +38,7 @@ struct BarcodeSubsample {
   double covering_radius = 0;
 };
 
-/// The grid of voxels that points were turned into.
+/// The grid of voxels into which points were converted.
 struct BarcodeVoxelGrid {
   double voxel = 0;           ///< edge length
   std::vector<double> first;  ///< centre of the voxel at (0, ..., 0), in the points' coordinates
@@ -77,7 +77,7 @@ struct BarcodeInfo {
   /// ph/greedy_permutation.hpp.
   using Subsample = BarcodeSubsample;
   std::optional<Subsample> subsample;
-  /// The grid of voxels, if points were turned into an image; see ph/voxel_image.hpp.
+  /// The grid of voxels, if points were converted into an image; see ph/voxel_image.hpp.
   using VoxelGrid = BarcodeVoxelGrid;
   std::optional<VoxelGrid> voxels;
   /// Set for an alpha complex, or for another complex of the Delaunay triangulation.

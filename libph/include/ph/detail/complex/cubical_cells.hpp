@@ -97,8 +97,8 @@ void Cubical::for_each_cofacet(int, const Cell& cell, Visit&& visit) const {
     int incidence;
   };
   // Cofacets are visited in grid order: the first cofacet with the key of the cell is therefore the
-  // oldest. Without wrapping, grid order means downwards from the slowest axis to the fastest, then
-  // upwards from the fastest to the slowest.
+  // oldest. Without wrapping, grid order means: first the cofacets below the cell, from the slowest
+  // axis to the fastest, then the cofacets above it, from the fastest axis to the slowest.
   std::array<Cofacet, 2 * kMaxDim> cofacets;
   int down = 0, up = 2 * kMaxDim;
   int sign = 1;

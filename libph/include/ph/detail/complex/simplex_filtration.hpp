@@ -41,9 +41,9 @@ namespace detail {
 ///   Index vertex_count() const                                    vertices are 0, 1, …
 ///   double simplex_value(std::span<const Index> vertices) const   value at which a simplex enters
 ///
-/// The vertices of a simplex are ascending. A simplex of value +infinity never enters, and none may
-/// enter before one of its faces. An engine that notices a violation or a NaN throws an Error
-/// (bad_data). Several threads may call these members at once.
+/// The vertices of a simplex are ascending. A simplex of value +infinity never enters, and no
+/// simplex may enter before one of its faces. An engine that notices a violation or a NaN throws an
+/// Error (bad_data). Several threads may call these members at once.
 ///
 /// Nothing is stored. Listing the facets of a cell of dimension d takes up to d + 1 calls of
 /// simplex_value; listing its cofacets takes one call per vertex. Order: (value, dimension,

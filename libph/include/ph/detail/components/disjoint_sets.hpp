@@ -26,8 +26,8 @@ class DisjointSets {
     }
     return v;
   }
-  /// Prefetches the entry that `find` reads first. Call it some time before `find`, because memory
-  /// is slower than the other work on a set.
+  /// Prefetches the entry that `find` reads first. Call it some time before `find`, because a
+  /// memory access takes longer than the other work on a set.
   void prefetch(std::uint32_t v) const { __builtin_prefetch(&parent_[v]); }
   /// Prefetches the entry that `find` reads next. Call it when `prefetch` has had time to finish.
   void prefetch_parent(std::uint32_t v) const { __builtin_prefetch(&parent_[parent_[v]]); }

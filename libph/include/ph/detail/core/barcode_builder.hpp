@@ -41,7 +41,7 @@ class BarcodeBuilder {
   Representatives representatives() const { return representatives_; }
   /// True if bars keep their cells.
   bool wants_cells() const { return cells_; }
-  /// True if an engine must report pairs of equal value.
+  /// True if an engine must report pairs of cells of equal value.
   bool wants_zero_length() const { return min_persistence_ < 0; }
 
   /// Announces, as a hint, that about `count` more bars may be added.

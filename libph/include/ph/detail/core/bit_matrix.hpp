@@ -47,7 +47,7 @@ std::size_t first_outside(const Word* a, const Word* b, std::size_t first, std::
 /// out = a & b. @return true if the result is not empty.
 bool intersect(const Word* a, const Word* b, Word* out, std::size_t words);
 
-/// Moves the bits that `from` and `mask` share out of `from` into `moved`, from word `first` on.
+/// Moves the bits that `from` and `mask` share from `from` to `moved`, beginning at word `first`.
 /// @return true if anything is left in `from`.
 bool split(Word* from, const Word* mask, Word* moved, std::size_t first, std::size_t words);
 

@@ -58,8 +58,8 @@ class ByteReader {
     if (value > 1) refuse(what);
     return value != 0;
   }
-  /// Reads a count of items that take at least `bytes_each` bytes each; refuses it if the remaining
-  /// bytes cannot hold so many items.
+  /// Reads a count of items that take at least `bytes_each` bytes each; refuses the count if the
+  /// remaining bytes cannot hold this many items.
   std::size_t count(std::size_t bytes_each, std::string_view what) {
     const auto count = get<std::uint64_t>(what);
     if (count > (bytes_.size() - at_) / bytes_each) refuse(what);

@@ -15,7 +15,7 @@ namespace ph {
 class Engine {
  public:
   constexpr Engine() = default;  ///< Engine::automatic
-  /// @param name must live as long as the program: words in lower case joined by hyphens.
+  /// @param name words in lower case, joined by hyphens; the text must live as long as the program.
   explicit constexpr Engine(std::string_view name) : name_(name) {}
 
   constexpr std::string_view name() const { return name_; }
@@ -27,7 +27,7 @@ class Engine {
   static const Engine cohomology;  ///< coboundary matrix with clearing and shortcuts
   static const Engine union_find;  ///< H0 only
   static const Engine edge_links;  ///< Rips, H0 to H3: edge by edge
-  /// Rips of points with few coordinates, H0 and H1: without listing edges.
+  /// Rips of points with few coordinates, H0 and H1; lists no edges.
   static const Engine beta_skeleton;
   static const Engine gradient;  ///< images voxel by voxel, alpha complexes interval by interval
 
@@ -91,8 +91,8 @@ struct EngineFacts {
   /// Bytes that the engine takes for a Rips complex, whatever dimensions are requested; null if it
   /// takes as many bytes as the adjacency of the graph.
   double (*rips_bytes)(std::size_t vertices, std::size_t edges) = nullptr;
-  /// The forms of a Rips filtration that it accepts, best first; empty if it takes all edges or the
-  /// edges of the distinct points.
+  /// The forms of a Rips filtration that it accepts, best first; empty if it accepts all edges or
+  /// the edges of the distinct points.
   std::span<const RipsForm> rips_forms = {};
   /// Returns the condition that prevents the engine from using the best of these forms, or an empty
   /// text if there is none. If null, can_run decides from the edges.
@@ -101,7 +101,7 @@ struct EngineFacts {
   /// `suitability` decides from the edges.
   Suitability (*rips_suitability)(const RipsInput&, const Task&) = nullptr;
 };
-/// The facts of an engine. @throws Error (usage) if none has that name.
+/// The facts of an engine. @throws Error (usage) if no engine has that name.
 const EngineFacts& facts_of(Engine engine);
 
 }  // namespace ph

@@ -43,15 +43,15 @@ class ScratchFile {
   std::size_t size_ = 0;
 };
 
-/// Tells how many bytes of mapped files are in the memory of the process.
+/// Measures how many bytes of mapped files are in the memory of the process.
 class ResidentFiles {
  public:
   ResidentFiles();
   ResidentFiles(const ResidentFiles&) = delete;
   ResidentFiles& operator=(const ResidentFiles&) = delete;
   ~ResidentFiles();
-  /// The number of these bytes, or 0 if the system does not report their number. The call is quick,
-  /// and several threads may make it at once.
+  /// The number of these bytes, or 0 if the system does not report it. The call is quick, and
+  /// several threads may make it at once.
   std::size_t bytes() const;
 
  private:

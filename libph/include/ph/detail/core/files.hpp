@@ -38,7 +38,7 @@ struct Status {
 std::optional<Status> status_of(const std::filesystem::path& path);
 std::optional<Status> status_of(int file);
 
-/// Closes a file. @return true if all data written to it could be kept.
+/// Closes a file. @return true if all data written to it were stored.
 bool close(int file);
 
 /// @{ For reading.

@@ -16,8 +16,8 @@ std::size_t thread_count(const RunContext& context);
 
 /// Divides 0 … count - 1 into pieces and calls `work(begin, end)` for each piece, on
 /// `context.threads` threads, one of which is the caller's. It uses fewer threads if the system
-/// provides no more, and only one if there is only one piece. Returns when all pieces are done. Any
-/// thread may take any piece: the output of `work` must depend on the piece alone.
+/// cannot provide that many, and only one if there is only one piece. Returns when all pieces are
+/// done. Any thread may take any piece: the output of `work` must depend on the piece alone.
 /// @param stage the name of the work, for progress; the caller's thread counts the steps.
 /// @param piece the size of a piece, > 0: large enough that its work outweighs the call.
 /// @throws what `work` throws, after the other threads have stopped; Error (cancelled) on a stop

@@ -6,8 +6,8 @@
 
 namespace ph {
 
-/// Sorts a range, unless it is sorted, and can be stopped: each comparison counts as work for the
-/// ticker.
+/// Sorts a range, unless it is sorted already. The sort can be stopped, because each comparison
+/// counts as work for the ticker.
 /// @throws Error (cancelled); the elements are then in any order.
 template <class Range, class Less>
 void polled_sort(Range& range, const Less& less, Ticker& ticker) {

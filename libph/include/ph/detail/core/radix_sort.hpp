@@ -12,8 +12,9 @@
 
 namespace ph {
 
-/// Maps doubles other than NaN and -0.0 to integers in the same order: the bits of IEEE numbers
-/// order them once the bits of negative numbers are inverted.
+/// Maps doubles other than NaN and -0.0 to integers in the same order. The bits of IEEE numbers,
+/// read as integers, have this order once all bits of negative numbers, and the sign bits of all
+/// others, are inverted.
 inline std::uint64_t ordered_bits(double value) {
   const auto bits = std::bit_cast<std::uint64_t>(value);
   return bits >> 63 ? ~bits : bits | std::uint64_t{1} << 63;

@@ -7,9 +7,10 @@
 
 namespace ph {
 
-/// A part of a result in its stored form: its kind, and a checksum that shows whether all of it
-/// arrived. The layout: eight bytes "ph part\n", eight bytes for the kind, the version as 32 bits,
-/// the size of the content as 64 bits, the content, and the CRC-32 of everything before it.
+/// A part of a result in its stored form: its kind, its content, and a checksum that shows whether
+/// the part is complete and undamaged. The layout: eight bytes "ph part\n", eight bytes for the
+/// kind, the version as 32 bits, the size of the content as 64 bits, the content, and the CRC-32 of
+/// everything before it.
 ///
 /// @param kind at most eight characters: "image". @param content the bytes of the part.
 std::vector<std::byte> sealed_part(std::string_view kind, std::span<const std::byte> content);

@@ -19,8 +19,8 @@ class ThreadContexts {
                    : parent.memory.left() /
                          std::clamp<std::size_t>(thread_count(parent), 1, std::max(tasks, kOne))) {}
 
-  /// Prepares a new context for a task, which has one thread, stops with the parent, and has a
-  /// share of the memory.
+  /// Prepares a new context for a task. The context has one thread, stops with the parent, and has
+  /// a share of the memory.
   void prepare(RunContext& task) const {
     task.stop = parent_.stop;
     task.threads = 1;

@@ -57,8 +57,8 @@ struct Camera {
 
 /// Reads a calibration: the camera_info YAML of ROS 1 and 2 (a file of camera_calibration, or the
 /// output of `ros2 topic echo`), the YAML of OpenCV, or Open3D's intrinsic JSON. From camera_info
-/// it reads K and D, not R and P: the image is the raw one unless D is zero. It applies the binning
-/// and the region of interest.
+/// it reads K and D, not R and P: the image is assumed to be the raw image unless D is zero. It
+/// applies the binning and the region of interest.
 /// @throws Error (bad_data) "name:line:column: …" on any other file, or on a lens whose model is
 ///         unknown.
 Camera read_camera(const Input& input);

@@ -24,7 +24,7 @@ inline std::string boolean(bool value) { return value ? "true" : "false"; }
 /// A name and a value. A member without a value is left out.
 using Members = std::initializer_list<std::pair<std::string_view, std::string>>;
 
-/// Appends to the members of an object, given without the braces around them.
+/// Appends members to the text of an object, which is given without its braces.
 /// @param between separates members: ", " for one line.
 void add_members(std::string& text, Members members, std::string_view between = ", ");
 /// An object on one line.

@@ -13,7 +13,8 @@
 
 namespace ph {
 
-/// The reader of the output closed it: the only output error that a program does not report.
+/// Thrown when the reader of the output has closed it. It is the only output error that a program
+/// does not report.
 class BrokenPipe : public Error {
  public:
   BrokenPipe() : Error(ErrorKind::io, "broken pipe") {}

@@ -171,7 +171,7 @@ class TextLines {
 
 /// The names in a header line: a line without numbers that does not consist of missing values only.
 /// Cells are split at commas, semicolons or tabs if there are any, otherwise at blanks; quotes are
-/// removed. Nothing if the line is not a header.
+/// removed. Empty if the line is not a header.
 std::vector<std::string> header_names(std::string_view line);
 
 /// The kinds of numbers that a cell may hold besides finite ones.

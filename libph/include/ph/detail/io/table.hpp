@@ -39,7 +39,7 @@ struct TableLayout {
 /// @throws Error (usage) if options.columns names a missing column.
 TableLayout table_layout(const Input& input, const ReadOptions& options);
 
-/// The number in a cell, NaN if double cannot hold it; nothing if it is not a number.
+/// The number in a cell, NaN if double cannot hold it; empty if it is not a number.
 std::optional<double> number_in(std::string_view cell);
 /// True if a cell is NA or #N/A, which R and spreadsheets write for a missing value.
 bool is_missing_value(std::string_view cell);
@@ -51,8 +51,8 @@ std::string_view without_quotes(std::string_view cell);
 /// @param keeps_tabs each tab separates two cells; otherwise any number of tabs does.
 std::vector<std::string> header_cells(std::string_view line, bool names_only,
                                       bool keeps_tabs = false);
-/// The separator of the cells of a line: a comma, a semicolon or a tab outside quotes, the first of
-/// these that occurs, otherwise blanks.
+/// The separator of the cells of a line: the first comma, semicolon or tab outside quotes; blanks
+/// if there is none.
 char separator_in(std::string_view line);
 /// Number of cells in the current line, without an empty last one. @param separator see Cells.
 std::size_t count_cells(const TextLines& lines, char separator = ' ');
@@ -132,7 +132,7 @@ struct ForeignKind {
   std::string_view name;
   std::string_view advice;
 };
-/// Recognises a file by its first bytes, and STL also by its size; nothing if it is unknown.
+/// Recognises a file by its first bytes, and STL also by its size; empty if it is unknown.
 std::optional<ForeignKind> foreign_kind(std::string_view bytes);
 
 /// @throws Error (usage) if options.columns were given for an input without columns to choose.

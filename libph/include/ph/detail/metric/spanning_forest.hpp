@@ -16,8 +16,8 @@ namespace ph {
 
 // The minimum spanning forest of a finite set with distances: among all pairs at finite distance <=
 // limit, the pairs that Kruskal's algorithm takes in the order (distance, larger end, smaller end).
-// The order is total, which makes the forest unique. It has the same components as the entire graph
-// up to any distance, and therefore the same H0 pairs, cell by cell; see
+// The order is total, which makes the forest unique. The forest has the same components as the
+// entire graph up to any distance, and therefore the same H0 pairs, cell by cell; see
 // docs/explanation/engines/spanning-forest.md.
 //
 // The functions return edges with u > v, in any order. There must be fewer than 2^32 - 1 points.

@@ -34,8 +34,8 @@ class CoboundaryColumn {
         terms_(filtration, field, &context.memory),
         chain_(&context.memory) {}
 
-  /// Begins with a cell alone. `goes_on(cofacet, coefficient)` sees the cofacets as they are
-  /// listed. Once it returns false, the column stays unfinished and must be started again.
+  /// Begins with a cell alone. `goes_on(cofacet, coefficient)` is called for each cofacet when it
+  /// is listed. Once it returns false, the column stays unfinished and must be started again.
   template <class GoesOn>
   void start(int dim, const Cell& cell, GoesOn&& goes_on) {
     begin(dim, cell, f_.key(cell));

@@ -51,7 +51,7 @@ class HomologyReduction {
     collect_columns();
     reduce_collected();
   }
-  /// Reduces only these columns of dimension `dim`; dimensions may come in any order. This is
+  /// Reduces only these columns of dimension `dim`; dimensions may be reduced in any order. This is
   /// enough if all other columns are zero or apparent, and apparent pairs are not wanted.
   void reduce_columns(int dim, std::span<const Cell> cells) {
     start_dimension(dim);
@@ -100,7 +100,8 @@ class HomologyReduction {
 
   void collect_columns();
   void reduce_column(const Cell& cell, Ticker& ticker);
-  // Reports the pair of a column to which nothing was added: it is the boundary of its cell.
+  // Reports the pair of a column to which nothing was added: the column is the boundary of its
+  // cell.
   void report_plain(const Cell& column, const Cell& pivot);
 
   // Adds the multiple of `owner` to the working column that cancels the pivot, which was just
@@ -145,7 +146,8 @@ void HomologyReduction<F, K>::collect_columns() {
   f_.for_each_cell(dim_, [&](const Cell& cell) {
     ticker.tick();
     if (previous_pivots_.find(cell) != CellMap<F>::kAbsent) return;
-    // A pivot of the dimension above; if that dimension is not wanted, its cells were never listed.
+    // The cell is a pivot of the dimension above. If that dimension is not wanted, its cells were
+    // never listed.
     if (dim_ <= bars_.max_dim() && apparent_.death_cell_of(dim_, cell)) return;
     if (const auto birth = apparent_.birth_cell_of(dim_, cell)) {
       if (bars_.wants_zero_length()) report_plain(cell, *birth);
@@ -159,7 +161,8 @@ template <Filtration F, Field K>
 void HomologyReduction<F, K>::cancel_pivot(const Term& pivot, const Column& owner, Ticker& ticker) {
   const auto scale =
       field_.negate(field_.multiply(pivot.coefficient(), field_.inverse(owner.pivot)));
-  // The pivot occurs once in the owner's boundary; leaving it out replaces cancelling it.
+  // The pivot occurs once in the owner's boundary; leaving it out has the same effect as cancelling
+  // it.
   if (owner.terms.empty()) {
     f_.for_each_facet(dim_, owner.cell, [&](const Cell& facet, int incidence) {
       if (!(facet == pivot.cell))

@@ -29,7 +29,7 @@ struct ReducedColumn {
 ///
 /// A column is published, then claims its pivot: it takes the pivot's slot if that is free or holds
 /// a higher column, which then has to be reduced further and published again. As a result, the
-/// numbers in a slot only fall, and each slot keeps its cell. A reader may find, in a slot, a
+/// numbers in a slot only decrease, and each slot keeps its cell. A reader may find, in a slot, a
 /// column that has another pivot by now. The reader then looks at the slot again: the slot changed
 /// before that column was published again.
 ///

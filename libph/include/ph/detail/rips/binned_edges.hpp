@@ -47,7 +47,7 @@ class BinnedEdges {
   /// The edges of the first `count` bins, in order.
   std::span<const FlagEdge> sorted_bins(std::size_t count) const;
   /// Calls `use(edges)` with the edges of the bins [first, last): bin after bin, but within a bin
-  /// in no particular order. The edges must not be kept.
+  /// in no particular order. The span is valid only during the call.
   template <class Use>
   decltype(auto) with_bins(std::size_t first, std::size_t last, Use&& use) const {
     const std::lock_guard lock(lazy_->mutex);

@@ -17,12 +17,12 @@ enum class CollapseLayout {
 /// length, over any field.
 ///
 /// An edge is dominated at a value if its link, the common neighbours of its ends, has a vertex
-/// joined to all others. Such an edge can be removed from the flag complex without changing
-/// homology (Boissonnat & Pritam, Edge collapse and persistence of flag complexes, SoCG 2020). From
-/// the longest edge to the shortest, each edge is moved to the first value at which it is not
-/// dominated, or dropped if there is none (Glisse & Pritam, Swap, shift and trim to edge collapse a
-/// filtration, SoCG 2022). This is repeated on the result as long as many edges are dropped. See
-/// docs/explanation/engines/edge-collapse.md for the proof.
+/// that is joined to all its other vertices. Such an edge can be removed from the flag complex
+/// without changing homology (Boissonnat & Pritam, Edge collapse and persistence of flag complexes,
+/// SoCG 2020). From the longest edge to the shortest, each edge is moved to the first value at
+/// which it is not dominated, or dropped if there is none (Glisse & Pritam, Swap, shift and trim to
+/// edge collapse a filtration, SoCG 2022). This is repeated on the result as long as many edges are
+/// dropped. See docs/explanation/engines/edge-collapse.md for the proof.
 ///
 /// Each edge kept is an edge of `graph`, at its value or at a later value that occurs in `graph`;
 /// vertices, their names and the threshold are the same. Among edges of equal value, edges that

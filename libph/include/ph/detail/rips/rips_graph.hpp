@@ -59,8 +59,8 @@ class RipsGraph {
   static RipsGraph with_edges(const RipsGraph& graph, FlagEdges&& edges, const RunContext& context);
 
   /// Holds only a minimum spanning forest, which has the same components as the entire graph at
-  /// every distance. Without a threshold there is no limit. Evaluates each distance once and keeps
-  /// O(n) memory.
+  /// every distance. Without a threshold there is no limit. Evaluates each distance once, in O(n)
+  /// memory.
   template <Metric M>
   static RipsGraph forest_of_metric(const M& metric, std::optional<double> threshold,
                                     const RunContext& context, const VertexWeights& weights = {});

@@ -11,9 +11,10 @@
 
 namespace ph {
 
-/// Lists simplices by their longest edge e, one edge after another, as cliques of the link of e:
-/// the vertices that edges before e join to both ends of e. It finds the simplices that are in no
-/// apparent pair without looking at most of the others; see docs/explanation/engines/cohomology.md.
+/// Lists simplices by their longest edge e, one edge after another, as cliques of the link of e.
+/// The link consists of the vertices that edges before e join to both ends of e. This class finds
+/// the simplices that are in no apparent pair without looking at most of the others; see
+/// docs/explanation/engines/cohomology.md.
 class RipsGroups {
  public:
   using Key = RipsGraph::Key;

@@ -71,7 +71,7 @@ struct Metadata {
   Provenance provenance;
 };
 
-/// The metadata as JSON that can be embedded in HTML: no text in it ends the element.
+/// The metadata as JSON that can be embedded in HTML: no text in it can end the element.
 std::string metadata_json(const Metadata& metadata);
 
 }  // namespace ph::report

@@ -10,7 +10,7 @@ namespace ph::segment {
 /// The formats in which clouds can be written.
 enum class CloudFormat { pcd, ply };
 
-/// The format by extension, in any case; "-" (standard output) is PCD.
+/// The format that the extension names, in upper or lower case; "-" (standard output) is PCD.
 /// @throws Error (usage) naming the path on another extension.
 CloudFormat cloud_format_of(std::string_view path);
 

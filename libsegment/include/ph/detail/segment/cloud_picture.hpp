@@ -26,7 +26,7 @@ struct CloudPicture {
   Raster raster;
   /// The number of points in no segment (at 0), then in each segment; holes do not count.
   std::vector<std::size_t> points;
-  /// The pixel where the number of each segment may stand; empty for a segment that is hardly
+  /// For each segment, the pixel where its number may be drawn; empty for a segment that is hardly
   /// visible.
   std::vector<std::optional<std::array<double, 2>>> middles;
 };
