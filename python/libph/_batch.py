@@ -32,7 +32,7 @@ def batch(function: Callable[..., Barcode], inputs: Iterable[Any], **options: An
         `rips`, `alpha`, `cubical`, `lower_star`, `filtered` or `boundary`.
     inputs : iterable
         The first arguments of the function: clouds or images, which may differ in size. For
-        functions with several data arguments, such as `lower_star`, tuples of them.
+        functions with several data arguments, such as `lower_star`, tuples of these arguments.
     **options
         Keywords of the function, the same for all inputs; and `threads`, `memory_limit`,
         `progress`, `timeout`, `stop`, which apply to all inputs together; see `libph`. The timeout

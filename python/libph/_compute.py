@@ -41,15 +41,16 @@ def rips(X: Any, *, max_dim: int | None = 1, min_dim: int = 0, threshold: float 
     X : array_like or sparse matrix
         Points, one per row. With ``metric="precomputed"``, distances: a square matrix, the
         condensed form of ``scipy.spatial.distance.pdist``, or a sparse matrix, in which a pair that
-        is not stored is never joined. With a function as `metric`, any sequence.
+        is not stored is never joined. With a function as `metric`, any sequence of objects.
     max_dim : int
         The highest dimension of homology.
     min_dim : int
         The lowest dimension of homology.
     threshold : float, optional
         The largest distance at which two points are joined. Default: the enclosing radius, beyond
-        which only one component is left. There is no default threshold for sparse distances, for
-        the engines "beta-skeleton" and "union-find", and for ``max_dim=0`` without a named engine.
+        which one component and no other class is left. There is no default threshold for sparse
+        distances, for the engines "beta-skeleton" and "union-find", and for ``max_dim=0`` without a
+        named engine.
     metric : str or callable
         "euclidean", "manhattan" ("l1", "cityblock"), "chebyshev", "minkowski", "cosine", "hamming"
         (how many coordinates differ), "precomputed", or a function of two points, which is called
@@ -142,8 +143,8 @@ def alpha(X: Any, *, values: str = "alpha", squared: bool | None = None,
 
     Uses an alpha complex: the simplices of the Delaunay triangulation, each of which enters when
     the balls around its vertices, cut to their Voronoi cells, meet. Its bars are the bars of the
-    union of the balls, in all dimensions, and it has few simplices: a million points in space take
-    seconds. Values are radii; values of H0 are therefore half as large as in `rips`. See
+    union of the balls, in all dimensions. It has so few simplices that a million points in space
+    take seconds. Values are radii; values of H0 are therefore half as large as in `rips`. See
     docs/explanation/engines/alpha.md.
 
     Parameters
@@ -153,8 +154,8 @@ def alpha(X: Any, *, values: str = "alpha", squared: bool | None = None,
         common line, are accepted.
     values : {"alpha", "delaunay-cech", "delaunay-rips"}
         When a simplex enters. "alpha": as above. "delaunay-cech": when the balls around all its
-        vertices have a common point, which gives the same bars. "delaunay-rips": when the balls
-        around its vertices meet in pairs.
+        vertices have a common point, which gives the same bars. "delaunay-rips": when all pairs of
+        the balls around its vertices meet.
     squared : bool, optional
         If True, values are squares of radii, as in GUDHI. Default: True only for points with
         weights.

@@ -24,7 +24,7 @@ class Estimate(NamedTuple):
     cells : tuple of float
         Number of cells per dimension, as far as the engine lists them.
     counted_dims : int
-        Cells of dimensions below this are counted exactly; from this dimension on, they are
+        The numbers of cells below this dimension are exact; from this dimension on, they are
         estimated from a sample.
     engine : str
         The engine that will run.

@@ -28,7 +28,7 @@ class Surface(NamedTuple):
     vertices : ndarray
         All points, (n, 2) or (n, 3); (0, 3) if there are no points.
     triangles : ndarray
-        Rows of three points, (m, 3). Seen from outside they are counterclockwise.
+        Rows of three points, (m, 3). Seen from outside, they are counterclockwise.
     singular : ndarray of bool
         True for triangles without a tetrahedron of the complex on either side; they come last. For
         points in the plane, this holds for all triangles.

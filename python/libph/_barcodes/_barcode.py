@@ -34,8 +34,8 @@ _Arrays = tuple[NDArray[np.int64], NDArray[np.float64], NDArray[np.float64]]
 class Bar(NamedTuple):
     """A hole that appears at `birth` and disappears at `death`, or never if `death` is ``inf``.
 
-    In dimension 0 it is a component, in 1 a loop, in 2 a hollow; in general a class of H_dim. A bar
-    is a tuple: ``dim, birth, death = bar``.
+    The hole is a component in dimension 0, a loop in dimension 1, a hollow in dimension 2, and in
+    general a class of H_dim. A bar is a tuple: ``dim, birth, death = bar``.
     """
 
     dim: int
@@ -57,8 +57,8 @@ class Barcode(Cells, Summaries, Sequence[Bar]):
     Attributes
     ----------
     meta : Mapping
-        Its origin: `complex`, `field`, `max_dim`, `engine`, the `threshold` if there is one, and
-        further facts such as the number of `points` or the `shape` of the image.
+        The origin of the barcode: `complex`, `field`, `max_dim`, `engine`, the `threshold` if there
+        is one, and further facts such as the number of `points` or the `shape` of the image.
 
     Examples
     --------
@@ -324,8 +324,8 @@ class Barcode(Cells, Summaries, Sequence[Bar]):
         dim : int or iterable of int, optional
             Show only these dimensions. Default: all.
         noise : float, optional
-            For a diagram: draws a grey band along the diagonal that covers bars of this length and
-            shorter. For bars of `rips`, use ``4 * ph.confidence_radius(X)``.
+            For a diagram: draws a grey band along the diagonal that covers bars of at most this
+            length. For bars of `rips`, use ``4 * ph.confidence_radius(X)``.
         **style
             Passed on to the drawing function: `scatter`, `hlines` or `step`.
 

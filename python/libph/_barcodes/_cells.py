@@ -30,10 +30,10 @@ class Cells:
     def birth_cells(self, dim: int) -> NDArray[np.int64]:
         """The birth cell of each bar of a dimension, one row per bar.
 
-        A row lists the vertices, ascending; for a boundary matrix it is the number of the row. For
-        an image, it lists the doubled grid coordinates of the cell: the voxel (i, j) is (2 i, 2 j).
-        With the construction "cells", the voxel is (2 i + 1, 2 j + 1). `gradients.deciders` returns
-        the edge or the voxel that determines the value of the cell.
+        A row lists the vertices, ascending; for a boundary matrix, it is the row number of the
+        cell. For an image, it lists the doubled grid coordinates of the cell: the voxel (i, j) is
+        (2 i, 2 j). With the construction "cells", the voxel is (2 i + 1, 2 j + 1).
+        `gradients.deciders` returns the edge or the voxel that determines the value of the cell.
 
         >>> bars = ph.rips([[0, 0], [1, 0], [1, 1], [0, 1]])
         >>> bars.birth_cells(1), bars.death_cells(1)

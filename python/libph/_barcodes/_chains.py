@@ -24,7 +24,7 @@ class Loop(NamedTuple):
     coefficient : int
         How often the walk counts in the chain.
     length : float or None
-        The sum of the values of its edges, if they are lengths.
+        The sum of the values of its edges, if these values are lengths.
     """
 
     vertices: NDArray[np.int64]

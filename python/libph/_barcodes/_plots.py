@@ -111,7 +111,7 @@ def _lines(bars: Barcode, ax: Axes, style: dict[str, Any]) -> None:
 
 
 def _empty_place(ends: NDArray[np.float64], middle: float) -> str | None:
-    """A corner without bars in a picture of bars from the bottom up; None if there is none.
+    """A corner without bars, in a picture whose bars are stacked from the bottom up, or None.
 
     matplotlib's own choice of a corner ignores the lines of the bars.
     """

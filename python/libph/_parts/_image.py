@@ -25,7 +25,7 @@ class ImagePart(Part):
     Attributes
     ----------
     first, last : int
-        The first and the last of the parts that it covers, from 0.
+        The first and the last part that this object covers, counted from 0.
     parts : int
         Total number of parts.
     shape : tuple of int
@@ -48,8 +48,8 @@ class ImagePart(Part):
         self.has_loops: bool = facts["has_loops"]
 
     def told_to_loops(self, **run: Unpack[RunOptions]) -> list[bytes]:
-        """For each part, the message with which the search for its loops starts; joining the parts
-        determined these messages.
+        """For each part, the message that starts the search for its loops. Joining the parts
+        determines these messages.
 
         Raises
         ------
@@ -157,7 +157,7 @@ def image_part(image: Any, part: int, parts: int, *, construction: str = "vertic
         If True, bars store the cells of their birth and death.
     loops : bool
         If True, `ImageLoops` will find the bars of a volume that need all layers at once. The part
-        holds its voxels until an `ImageLoops` takes it, with all its layers in memory whatever
+        keeps its voxels until an `ImageLoops` takes them, with all its layers in memory, whatever
         `slab_layers` is. `ImagePart.has_loops` is True if there can be such bars.
     **run
         `threads`, `memory_limit`, `progress`, `timeout`, `stop`; see `libph`.

@@ -40,8 +40,8 @@ class Segment(NamedTuple):
     size : ndarray
         The length of the tight box along each axis.
     neighbours : tuple of (int, float)
-        The labels of the objects that it touches with the values at which they meet, in the order
-        of these values.
+        The labels of the objects that it touches, each with the value at which the two meet, in the
+        order of these values.
     role : str
         "object" or "container". A container, such as a bin, has at least three other objects in it.
     on : tuple of (str, int) or None

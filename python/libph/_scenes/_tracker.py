@@ -36,8 +36,8 @@ class LabelTracker:
     """Gives the objects of a stream of frames stable numbers and roles.
 
     A segment takes the number of the object with which it overlaps most, measured as a share of the
-    union of the two. The places that both share must be more than a quarter of the smaller of the
-    two. All other segments get new numbers. Places are pixels, or cubes of edge `cell` in clouds
+    union of the two. The shared places must be more than a quarter of the places of the smaller
+    one. All other segments get new numbers. Places are pixels, or cubes of edge `cell` in clouds
     without rows and columns; in that case the camera must stand still. The role of an object, and
     what it stands on, change when three frames in a row agree.
 

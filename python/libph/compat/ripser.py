@@ -80,7 +80,7 @@ def ripser(X: Any, maxdim: int = 1, thresh: float = np.inf, coeff: int = 2,
     Raises
     ------
     UsageError, DataError
-        Both are a ValueError.
+        Both are ValueErrors.
     """
     _run.check_names("ripser", run, ripser)
     kind = _flag.precision(dtype)
@@ -140,7 +140,8 @@ def _look_at_shape(X: Any, is_distances: bool, n_perm: int | None) -> None:
 
 
 def _pairwise(X: Any, metric: Any, *others: Any) -> NDArray[Any]:
-    """scikit-learn's distances: its Euclidean ones differ from others in the last digits."""
+    """The distances of scikit-learn; its Euclidean distances differ from others in the last
+    digits."""
     try:
         from sklearn.metrics import pairwise_distances
     except ImportError:

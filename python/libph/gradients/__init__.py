@@ -64,9 +64,9 @@ def pullback(bars: Barcode, X: Any, d_births: ArrayLike | None = None,
     Raises
     ------
     UsageError
-        If births and deaths are not differentiable functions: ``metric="hamming"``, a function as
-        the metric, an approximation. Also if the derivative is unknown: complexes of `filtered`,
-        barcodes from files.
+        If births and deaths are not differentiable, as for ``metric="hamming"``, a function as the
+        metric, or an approximation. Also if the derivative is unknown, as for complexes of
+        `filtered` and barcodes from files.
     DataError
         If the bars were not computed from X.
 

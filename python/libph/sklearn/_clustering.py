@@ -32,9 +32,9 @@ class PersistenceClustering(ClusterMixin, BaseEstimator):
 
     The algorithm is ToMATo [Chazal, Guibas, Oudot & Skraba 2013]. Each point is joined to its k
     nearest points, and follows the densest of the points to which it is joined, up to a peak. The
-    sublevel sets of f = -log(density) have one bar for each peak: it is born at the peak and dies
-    at the pass to a denser peak. Its length is the logarithm of the ratio of the densities of peak
-    and pass. Clusters with short bars are merged into the denser cluster.
+    sublevel sets of f = -log(density) have one bar for each peak: this bar is born at the peak and
+    dies at the pass to a denser peak. Its length is the logarithm of the ratio of the densities of
+    peak and pass. Clusters with short bars are merged into the denser cluster.
 
     Parameters
     ----------
@@ -69,12 +69,10 @@ class PersistenceClustering(ClusterMixin, BaseEstimator):
     function_ : ndarray
         f at each point.
 
-    Notes
-    -----
-    Without `n_clusters` and `min_persistence` the number of clusters is guessed. Bars that never
-    die are clusters. The other bars are sorted by length, with 0 at the end. If the bar before the
-    largest gap is at least one and a half times as long as the bar after it, this bar and all
-    longer ones are clusters. Look at ``barcode_.plot()`` before you trust the guess.
+    Notes ----- Without `n_clusters` and `min_persistence`, the number of clusters is guessed. Bars
+    that never die are clusters. The other bars are sorted by length, with 0 at the end. If the bar
+    before the largest gap is at least one and a half times as long as the bar after it, this bar
+    and all longer ones are clusters. Look at ``barcode_.plot()`` before you trust the guess.
 
     If the graph has several components, each has at least one cluster. If `n_clusters` is smaller,
     components whose densest points are near each other are joined, with a `ConvergenceWarning`.

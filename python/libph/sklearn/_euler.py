@@ -130,7 +130,7 @@ class EulerCurve(MakesTables, TransformerMixin, TakesDiagrams):
         return np.array([f"euler{i}" for i in range(self._count)], dtype=object)
 
     def _range_of(self, images: Any) -> Range:
-        """The range of the finite values that enter."""
+        """The range of the finite values at which voxels enter."""
         low, high = math.inf, -math.inf
         sign = -1 if _options.flag("superlevel", self.superlevel) else 1
         for image in images:

@@ -188,8 +188,8 @@ class RipsPersistence(_Persistence):
     reduced : bool
         If True, the component that never dies is left out; if there are several, the eldest one.
     n_jobs : int, optional
-        Number of samples computed at a time, in threads. Spare processors are given to the samples.
-        Default: one.
+        Number of samples computed at a time, in threads. Spare processors are shared among the
+        samples. Default: one.
 
     Examples
     --------

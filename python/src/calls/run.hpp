@@ -28,7 +28,7 @@ struct RunOptions {
   py::object stop = py::none();
   int slab_layers = 0;  ///< see RunContext
 
-  /// True if the computation must be watched, even if it is short.
+  /// True if the computation must be observed, even if it is short.
   bool is_watched() const { return timeout || !progress.is_none() || !stop.is_none(); }
 };
 

@@ -132,7 +132,7 @@ class Check {
       std::isnan(value) ? found.nan.take(1, place) : found.negative.take(-value, place);
     }
   }
-  /// The difference of two numbers that are not equal.
+  /// The difference between two numbers that are not equal.
   static double difference(double a, double b) {
     if (std::isnan(a) && std::isnan(b)) return 0;
     const double d = std::abs(a - b);

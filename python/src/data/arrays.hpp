@@ -53,8 +53,8 @@ class Block {
   /// Takes the points without a copy.
   static Block of(Points&& points);
   /// Shares the numbers of the image without a copy. Numbers that stay in a file are read-only.
-  /// @param context the context in which the image was made, if the image may count in the budget
-  /// of this context.
+  /// @param context the context in which the image was made, if the memory of the image may count
+  /// in the budget of this context.
   static Block of(const Image& image, std::shared_ptr<const RunContext> context = nullptr);
 
   /// The buffer in the form that Python's protocol requires.

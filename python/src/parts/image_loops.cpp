@@ -11,8 +11,8 @@
 namespace ph::python {
 namespace {
 
-/// While this object lives, a stop of another context also stops this context, and progress of this
-/// context is reported to the other context.
+/// While this object lives, a stop request to another context also stops this context, and the
+/// progress of this context is reported to the other context.
 class Watched {
  public:
   Watched(RunContext& context, const RunContext& call) : context_(context) {

@@ -52,7 +52,7 @@ def ripser_parallel(X: Any, maxdim: int = 1, thresh: float = np.inf, coeff: int 
         The highest dimension of homology.
     thresh : float
         The largest distance at which points are joined. Doubles in a dense matrix are compared as
-        they are, other distances in single precision.
+        they are, and other distances in single precision.
     coeff : int
         A prime.
     metric : str or callable
@@ -91,9 +91,10 @@ def ripser_parallel(X: Any, maxdim: int = 1, thresh: float = np.inf, coeff: int 
     Raises
     ------
     UsageError, DataError
-        Both are a ValueError.
+        Both are ValueErrors.
     NotBuiltIn
-        A NotImplementedError, for `collapse_edges` with `return_generators` and for other p.
+        A NotImplementedError, for `collapse_edges` with `return_generators`, and for other values
+        of p.
     """
     _run.check_names("ripser_parallel", run, ripser_parallel)
     if collapse_edges and return_generators:

@@ -34,7 +34,7 @@ def bottleneck_distance(X: Any, Y: Any, delta: float = 0.01) -> float:
     Raises
     ------
     UsageError, DataError
-        Both are a ValueError; the one for rows of another width is also a TypeError.
+        Both are ValueErrors; the error for rows of another width is also a TypeError.
     """
     _options.real("delta", delta, "a number of at least 0", 0)
     _check_width(X, Y)
@@ -68,7 +68,7 @@ def wasserstein_distance(X: Any, Y: Any, order: float = 1.0, internal_p: float =
     Raises
     ------
     UsageError, DataError
-        Both are a ValueError; the one for rows of another width is also a TypeError.
+        Both are ValueErrors; the error for rows of another width is also a TypeError.
     """
     _options.real("delta", delta, "a number of at least 0", 0)
     _check_width(X, Y)

@@ -80,7 +80,7 @@ class RipsPersistence(_DiagramsOfEach):
     input_type : {"point cloud", "full distance matrix", "lower distance matrix", \
 "distance coo_matrix"}
         The kind of each sample. The upper triangle of a lower matrix is not read; a sparse matrix
-        has each pair once.
+        contains each pair once.
     num_collapses : int or "auto"
         0: edges are not collapsed; above 0: they are.
     homology_coeff_field : int
