@@ -84,7 +84,8 @@ class MergeTree:
         enters.
 
         Two basins stay apart if the merge of their components has at least this persistence and
-        both have at least this many vertices: clustering by persistence (ToMATo).
+        both components have at least this many vertices. This is clustering by persistence
+        (ToMATo).
         """
         return np.asarray(self._tree.basins(_options.real("min_persistence", min_persistence),
                                             _options.whole("min_size", min_size, 1)))

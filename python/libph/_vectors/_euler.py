@@ -52,8 +52,8 @@ def euler_curve(image: Any, *, range: Iterable[float] | None = None,
     image : array_like or PointImage
         As in `cubical`.
     range : pair of float, optional
-        The ends of a grid at whose values the curve is computed, in little memory for any image.
-        Default: the exact curve, with all its steps.
+        The ends of a grid. The curve is computed only at the values of the grid, which takes little
+        memory for any image. Default: the exact curve, with all its steps.
     resolution : int, optional
         Number of values of the grid, including both ends of the range. Default: 100.
     construction, superlevel, periodic, threshold, nan

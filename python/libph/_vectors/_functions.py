@@ -175,7 +175,7 @@ def _density(centres: Vector, span: Range, count: int, bandwidth: float) -> Vect
 
 
 def fit_atol(dgms: list[Diagram], centres: int, seed: int) -> tuple[Vector, Vector]:
-    """Learns centres. Returns them as rows birth, death, and returns their widths."""
+    """Learns centres, and returns them as rows birth, death, together with their widths."""
     places, widths = _run.run(_core.fit_atol, dgms, centres, seed, 300, options={})
     return np.asarray(places), np.asarray(widths)
 

@@ -64,7 +64,7 @@ class Summaries:
         """The persistent entropy of a dimension [Chintakunta et al. 2015]; bars that never die are
         ignored.
 
-        It is the entropy of the shares of the bars in the sum of their lengths.
+        Each bar has a share in the sum of the lengths; the result is the entropy of these shares.
 
         Parameters
         ----------
@@ -186,7 +186,7 @@ class Summaries:
         dim : int
             The dimension of the bars.
         power : float
-            Exponent of the lengths; 0: all bars weigh the same, as in GUDHI.
+            Exponent of the lengths; 0: all bars have the same weight, as in GUDHI.
         resolution : int
             Number of values of the grid, including both ends of the range.
         range : pair of float, optional

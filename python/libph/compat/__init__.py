@@ -39,7 +39,7 @@ _DROP_INS = sorted([*_MODULES, "tcripser"])
 
 
 def install(*names: str) -> None:
-    """Makes `import ripser` and the like import libph's drop-in, in this process.
+    """Makes statements such as `import ripser` import libph's drop-in, in this process.
 
     Parameters
     ----------
@@ -50,7 +50,8 @@ def install(*names: str) -> None:
     Raises
     ------
     UsageError
-        If one of them is already imported, because its importers would keep the original.
+        If one of them is already imported, because the modules that imported it would keep the
+        original.
 
     Examples
     --------

@@ -102,7 +102,7 @@ class Silhouette(_OnGrid):
     Parameters
     ----------
     power : float
-        Exponent of the lengths; 0: all bars weigh the same, as in GUDHI.
+        Exponent of the lengths; 0: all bars have the same weight, as in GUDHI.
     resolution : int
         Number of values of the grid, including both ends of the range.
     range : pair of float or list of pairs, optional

@@ -47,7 +47,8 @@ class Statistics(Vectoriser):
 class Entropy(Vectoriser):
     """The persistent entropy of each diagram [Chintakunta et al. 2015].
 
-    It is the entropy of the shares of the bars in the sum of their lengths. Without bars, it is 0.
+    Each bar has a share in the sum of the lengths; the result is the entropy of these shares.
+    Without bars, it is 0.
 
     Parameters
     ----------
