@@ -84,7 +84,7 @@ class Containers {
   };
   /// The container with this floor. Empty if the object is no floor.
   std::optional<Found> container_on(std::size_t floor) const {
-    constexpr std::size_t fewest = 3;
+    constexpr std::size_t fewest = 3;  // mutant: container-fewest
     Found found{{floor}, {}};
     Outline plan = things_[floor].plan;
     double top = things_[floor].top;
@@ -98,6 +98,7 @@ class Containers {
     for (std::size_t k = 0; k < things_.size(); ++k) {
       const Eigen::Vector3d& middle = things_[k].middle;
       if (std::ranges::find(found.parts, k) == found.parts.end() &&
+          // mutant: container-top
           middle.z() > things_[floor].bottom && middle.z() < top &&
           is_inside(hull, middle.head<2>()))
         found.objects.push_back(k);

@@ -109,6 +109,7 @@ class MeanRise {
     if (count_ == 0) return 0;
     const Eigen::Vector3d u = normal.unitOrthogonal(), v = normal.cross(u);
     const double uu = u.dot(sum_ * u), uv = u.dot(sum_ * v), vv = v.dot(sum_ * v);
+    // mutant: concavity-mean
     return std::max(0.0, ((uu + vv) / 2 + std::hypot((uu - vv) / 2, uv)) / count_);
   }
 

@@ -27,7 +27,7 @@ std::optional<Sectors> arc(const Circle& circle, const UpperEnd& rim, double tol
 
 bool share_a_rim(const UpperEnd& a, const UpperEnd& b, double voxel) {
   constexpr double height = 2, of_voxel = 1.6, of_radius = 0.1;
-  constexpr std::size_t all = kSectors / 2, of_both = 2;
+  constexpr std::size_t all = kSectors / 2, of_both = 2;  // mutant: rim-half
   if (std::abs(a.top - b.top) > height * voxel) return false;
   const Circle circle = fit_circle({&a.points, &b.points});
   const double tolerance = std::min(of_voxel * voxel, of_radius * circle.radius);
