@@ -50,7 +50,7 @@ def _unmatched(ours, theirs):
 
 
 def difference(ours, theirs):
-    """A description of the first difference, or None. Bars so short that they may come from
+    """A description of the first difference, or None. Bars so short that they may be due to
     rounding do not count."""
     for dim, bars in ours.items():
         other = theirs.get(dim, [])

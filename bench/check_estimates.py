@@ -4,11 +4,11 @@
 
 check_estimates.py build/release --data FOLDER
 
-For each row, the script compares the predicted interval of memory with the additional memory of the
+For each row, the script compares the predicted memory interval with the additional memory of the
 run: its peak resident memory minus the peak of a program that only starts. It also compares the
-predicted with the counted numbers of cells. The program that only starts gets small pages, because
-a large page for its first bytes would hide how much memory the run needs. The exit code is 1 if a
-peak lies outside its interval or a number of cells is off by more than a factor of 2.
+predicted numbers of cells with the counted numbers. The program that only starts gets small pages,
+because a large page for its first bytes would hide how much memory the run needs. The exit code is
+1 if a peak lies outside its interval or a number of cells is off by more than a factor of 2.
 """
 import argparse
 import pathlib

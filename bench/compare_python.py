@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Compares the Python package with other packages: whole interpreters, on the same arrays, in one
-run.
+"""Compares the Python package with other packages on the same arrays, in one run. Each measurement
+covers a whole interpreter.
 
     compare_python.py build/release --path FOLDER_WITH_A_PACKAGE --json results.json
 
 A package that is neither installed nor in a folder given by --path leaves its cells empty. The
 script measures user + system CPU seconds and peak resident memory of `python3 -c PROGRAM`: this
-includes the start of the interpreter, imports and reading the array. The first row is the same
+includes the start of the interpreter, imports and reading the array. The first row measures the
 interpreter when it imports only NumPy. A separate run, which is not measured, compares the bars
 with ours. Needs NumPy; bench/README.md explains the method.
 """
@@ -25,8 +25,8 @@ import numpy as np
 import agreement
 from measuring import Limits, Meter
 
-# Pieces of the programs' texts. NAMES in capitals are replaced. A program stores its result as
-# `bars`, a list of (k, 2) arrays.
+# Pieces of the source code of the programs. Names in capitals, such as INPUT, are replaced. A
+# program stores its result as `bars`, a list of (k, 2) arrays.
 LOAD = "import numpy as np\nX = np.load(INPUT)\n"
 LIBPH = "import libph as ph\nb = ph.CALL\nbars = [b.dgm(d) for d in range(DIM + 1)]\n"
 RIPSER = ("from PACKAGE import ripser\n"

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """Compares the time to compute vectors of 10,000 uniform bars with the time that GUDHI's
-representations take: compare_vectors.py BUILD [--gudhi-python PYTHON]
+representations need: compare_vectors.py BUILD [--gudhi-python PYTHON]
 
 Our times are the rows of bench_vectors. Both packages are measured in CPU seconds of the
 computation alone, the least of three runs. Prints a table in Markdown."""

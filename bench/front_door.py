@@ -5,7 +5,7 @@ in one run.
 
     front_door.py build/release [--large] [--rows WORD] [--csv FILE] [--check [CPU MEMORY]]
 
-The ways to call the library are named *doors*:
+Each way to call the library is called a *door*:
 
 * C++: `ph::persistence(ph::Rips(points), {.max_dim = k})`, as the README writes it;
 * C++ moved: the same with `ph::Rips(std::move(points))`;

@@ -8,8 +8,8 @@ the page would change.
 
 A CSV file begins with a column `shown` (yes: the row is on the page) and ends with the columns
 `script`, `machine`, `date` and `versions`, from which the line above the table is made. The columns
-between them are those of the table. Two columns "X s" and "X MB" become one column X. Needs only
-the standard library.
+between them are the columns of the table. Two columns "X s" and "X MB" become one column X. Needs
+only the standard library.
 """
 import argparse
 import csv

@@ -41,7 +41,7 @@ def write_square(path, count, seed):
 
 
 def write_annulus(path, count, seed):
-    """Uniform points of the annulus of radii 1 and 1.3 in the plane."""
+    """Uniform points of the annulus with radii 1 and 1.3 in the plane."""
     draw = random.Random(seed).random
     with open(path, "w") as file:
         for _ in range(count):
@@ -104,8 +104,8 @@ SAMPLES = {sample.name: sample for sample in (
 
 @dataclass(frozen=True)
 class Row:
-    """One input of the table. Without a threshold, the enclosing radius is the length of the
-    longest edges."""
+    """One input of the table. Without a threshold, edges are at most as long as the enclosing
+    radius."""
     source: str  # a sample to generate, or the name of a file in the data folder
     max_dim: int
     threshold: Optional[float] = None

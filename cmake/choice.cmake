@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
-# ph_choice(NAME WORD DOC WORDS…): adds an option with these words, WORD by default. Any other word
-# is refused. Case does not matter, and ON, TRUE, YES and 1 mean the same, as everywhere in CMake.
+# ph_choice(NAME WORD DOC WORDS…): adds an option that accepts only these words; WORD is the
+# default. Any other word is refused. Case does not matter, and ON, TRUE, YES and 1 mean the same,
+# as everywhere in CMake.
 function(ph_choice name word doc)
   set(${name} ${word} CACHE STRING "${doc}")
   set_property(CACHE ${name} PROPERTY STRINGS ${ARGN})

@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: MIT
-# Compiles through ccache if it is installed, unless a launcher is set, which may be empty.
+# Compiles through ccache if it is installed and no launcher is set. An empty launcher also counts
+# as set.
 find_program(CCACHE ccache)
 if(NOT CCACHE OR DEFINED CMAKE_CXX_COMPILER_LAUNCHER)
   return()
 endif()
-# If ccache cannot write to its folder, for example for users without a home directory, every
-# compilation fails.
+# Tries ccache first: if it cannot write to its folder, for example because the user has no home
+# directory, every compilation would fail.
 file(WRITE ${CMAKE_BINARY_DIR}/CMakeFiles/cached.cpp "")
 execute_process(COMMAND ${CCACHE} ${CMAKE_CXX_COMPILER} -c cached.cpp -o cached.o
                 WORKING_DIRECTORY ${CMAKE_BINARY_DIR}/CMakeFiles

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Compiles once all functions of fmt that users of fmt call: FMT_HEADER_ONLY defines them inline,
-// and -fkeep-inline-functions keeps those that nothing here calls.
+// Compiles all functions that users of fmt may call, once. FMT_HEADER_ONLY defines them inline, and
+// -fkeep-inline-functions keeps the functions that nothing here calls.
 #include <fmt/format.h>
 
 namespace {

@@ -19,6 +19,7 @@ set(CMAKE_FIND_ROOT_PATH_MODE_PACKAGE ONLY)
 # fmt's headers work on any system. The folder of its CMake package is named after the host.
 file(GLOB fmt_DIR ${PH_MINGW_ROOT}/usr/lib/*/cmake/fmt)
 
-# Links the compiler's libraries statically, because otherwise the programs would need their DLLs.
+# Links the compiler's libraries statically, because the programs would otherwise need the DLLs of
+# these libraries.
 set(CMAKE_EXE_LINKER_FLAGS_INIT -static)
 set(CMAKE_CROSSCOMPILING_EMULATOR /usr/lib/wine/wine64)

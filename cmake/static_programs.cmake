@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-# Links programs that need no shared library: docs/development/adr/0018-static-programs.md. Sets
-# PH_IS_STATIC and PH_FMT, the target to link for fmt, and makes CMake find ZLIB, PNG and FreeType
-# as static libraries.
+# Links the programs statically, so that they need no shared library:
+# docs/development/adr/0018-static-programs.md. Sets PH_IS_STATIC and PH_FMT, the target to link for
+# fmt, and makes CMake find ZLIB, PNG and FreeType as static libraries.
 ph_choice(PH_STATIC_PROGRAMS AUTO
           "Link the programs statically: ON, OFF, or AUTO: if all archives are there" AUTO ON OFF)
 set(PH_IS_STATIC FALSE)

@@ -74,9 +74,9 @@ same() {
   fail "$1 and $2 differ: $work/diffoscope.txt"
 }
 
-# The name of the second folder has no spaces, because dpkg-buildflags would not map such a name to
-# ".". In a source package that dpkg-buildpackage makes, file modes depend on the umask. For this
-# reason, the source package in dist/ is compared.
+# The name of the second folder has no spaces, because dpkg-buildflags would not map a name with
+# spaces to ".". In a source package that dpkg-buildpackage makes, file modes depend on the umask.
+# For this reason, the source package in dist/ is compared.
 reproduce() {
   (
     umask 027

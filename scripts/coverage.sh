@@ -6,7 +6,7 @@
 #            the corpus of bad inputs, and random runs
 #   engines  at least 97 % of libph/src (except files and pictures) and of the internal headers: by
 #            the C++ tests with a fiftieth of their random inputs
-# COVERAGE_BUILD: another build folder. The last lines have the result of each part.
+# COVERAGE_BUILD: another build folder. The last lines show the result of each part.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 build=${COVERAGE_BUILD:-build/coverage}

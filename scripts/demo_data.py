@@ -61,8 +61,8 @@ def write_motorcycle(folder):
 
 
 def write_table(path):
-    """A camera 0.9 m from the table looks down by 40 degrees. The noise of depth grows with the
-    square of the range."""
+    """A camera 0.9 m from the table looks down at an angle of 40 degrees. The depth noise grows
+    with the square of the range."""
     width, height, focal = 640, 480, 525.0
     tilt = numpy.radians(40)
     u, v = numpy.meshgrid(numpy.arange(width) - 319.5, numpy.arange(height) - 239.5)
@@ -112,7 +112,8 @@ def write_table(path):
 def main():
     folder = pathlib.Path(sys.argv[1])
     folder.mkdir(parents=True, exist_ok=True)
-    # The first function needs no other package; each of the others stops if its package is missing.
+    # The first function needs no other package; each of the others stops the script if its package
+    # is missing.
     write_table(folder / "table.npy")
     write_kitten(folder / "kitten.csv")
     write_skull(folder / "skull.npy")

@@ -5,7 +5,7 @@
 # (O0 to O3) and instructions: x86-64 (default), v3 (AVX2, FMA) or v4 (AVX-512). The variants
 # Nehalem (SSE 4.2) and max (AVX2, FMA) are processors that QEMU emulates; they run the programs of
 # REFERENCE. platforms.sh checks 64-bit ARM and other C++ libraries. REFERENCE: the build to compare
-# with (default: build/release, built here); JOBS: number of parallel jobs. The last lines have the
+# with (default: build/release, built here); JOBS: number of parallel jobs. The last lines show the
 # counts of each variant.
 set -euo pipefail
 cd "$(dirname "$0")/.."

@@ -3,7 +3,7 @@
 # lint.sh [layout|clang-tidy|cppcheck|analyzer]…: runs static checks, by default all of them. layout
 # checks the format of all C++ with clang-format; clang-tidy checks the names and idioms of
 # libraries and programs, and cppcheck searches them for faults; analyzer runs GCC's analyzer on C,
-# the only language that it supports. Installs missing packages first. The last lines have the
+# the only language that it supports. Installs missing packages first. The last lines show the
 # result of each check. tests/analysis lists false positives.
 set -euo pipefail
 cd "$(dirname "$0")/.."

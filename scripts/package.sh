@@ -23,8 +23,8 @@ work=$PWD/build/package
 
 fail() { echo "package.sh: $1" >&2; exit "$2"; }
 
-# pack FOLDER ARCHIVE: packs the files in the order of their names, without users, and with the time
-# of the commit.
+# pack FOLDER ARCHIVE: packs the files, sorted by name, with root as the owner and with the time of
+# the commit.
 pack() {
   tar -C "$(dirname "$1")" --sort=name --format=ustar --owner=0 --group=0 --numeric-owner \
     --mode=u+rwX,go+rX,go-w --mtime="@$SOURCE_DATE_EPOCH" -c "$(basename "$1")" |
@@ -32,8 +32,7 @@ pack() {
   echo "${2#"$PWD"/}: $(stat -c %s "$2") bytes"
 }
 
-# add_page: adds the report page, and the files of the npm packages in it in their form before
-# bundling.
+# add_page: adds the report page, and the original files of the npm packages that are bundled in it.
 add_page() {
   (cd viewer && npm ci --no-audit --no-fund --prefer-offline --silent && npm run --silent build)
   mkdir -p "$1/viewer/build"

@@ -87,7 +87,7 @@ run() {
       # Sets up Wine's folder first: programs that start together would each set it up.
       [ -d "$WINEPREFIX" ] || /usr/lib/wine/wine64 wineboot --init >/dev/null 2>&1
       # The server stays for 60 s, because a program cannot start while the previous server is
-      # ending.
+      # shutting down.
       /usr/lib/wine/wineserver -p60 || true ;;
   esac
   cmake --preset "$platform"

@@ -11,7 +11,8 @@
 #   integers    Clang lists, for review, the places where integers wrap or lose digits legally
 # EVERY=N: every Nth command; SECONDS_EACH: commands that take longer are left out and counted;
 # REFERENCE: the build to compare with (default: build/release, built here); JOBS: number of parallel
-# jobs; TESTS: a regular expression of the tests to run. The last lines have the result of each kind.
+# jobs; TESTS: a regular expression of the tests to run. The last lines show the result of each
+# kind.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 jobs=${JOBS:-$(nproc)}
@@ -21,7 +22,7 @@ export CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file
 programs=(ph-barcode ph-distance ph-segment ph-vectorise)
 export ASAN_OPTIONS=detect_stack_use_after_return=1:strict_string_checks=1:check_initialization_order=1
 export PATH=/usr/lib/llvm-19/bin:$PATH  # the folder of llvm-symbolizer
-export PH_TEST_PATIENCE=20  # programs with checks run longer
+export PH_TEST_PATIENCE=20  # programs with checks run more slowly
 export UBSAN_OPTIONS=print_stacktrace=1 TSAN_OPTIONS=halt_on_error=1:second_deadlock_stack=1
 summary=()
 

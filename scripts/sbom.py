@@ -29,8 +29,8 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
 PROGRAMS = "apps/*/*.map"
-# The licences of source packages, as SPDX expressions. All of them allow passing on a program under
-# any terms, together with its source or with a way to relink it (glibc: LGPL).
+# The licences of source packages, as SPDX expressions. All of them permit the distribution of a
+# program under any terms, together with its source or with a way to relink it (glibc: LGPL).
 LICENCES = {
     "brotli": "MIT",
     "cli11": "BSD-3-Clause",

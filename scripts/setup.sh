@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Installs the missing Debian packages of some sets: setup.sh SET… The sets are build, page, demo,
-# test, python, viewer, docs, packages, lint, fuzz, coverage, determinism, sanitize, clang-libcxx,
-# aarch64 and mingw.
+# Installs the missing Debian packages of the named sets: setup.sh SET… The sets are build, page,
+# demo, test, python, viewer, docs, packages, lint, fuzz, coverage, determinism, sanitize,
+# clang-libcxx, aarch64 and mingw.
 set -euo pipefail
 
 build=(build-essential cmake ninja-build pkg-config ccache libeigen3-dev libfmt-dev
@@ -17,11 +17,11 @@ test=(libgtest-dev libbenchmark-dev libpcl-dev libcgal-dev ripser python3-gudhi 
 python=(python3-dev pybind11-dev python3-numpy python3-scipy python3-sklearn python3-pandas
         python3-matplotlib python3-skimage pymol-data python3-pytest python3-mypy python3-venv python3-nbclient
         python3-ipykernel python3-distributed)
-# The tools that bundle the page of the reports; Node may come from elsewhere.
+# The tools that bundle the report page; Node may also be installed without Debian's package.
 page=()
 command -v npm >/dev/null || page=(nodejs npm)
 viewer=("${page[@]}" chromium)  # the tests in a browser need it as well
-# Tools that make the site of the documentation.
+# Tools that make the documentation site.
 docs=(python3-sphinx python3-myst-parser furo python3-breathe python3-sphinx-copybutton doxygen git
       python3-jsonschema hunspell hunspell-en-gb)
 # Tools that make Debian packages, and tools that test them.

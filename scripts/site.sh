@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # Builds the documentation as a site, build/site/html/index.html: site.sh [FOLDER]. Installs missing
-# packages first. The programs and the Python module come from build/release, or from PH_BUILD_DIR.
-# If one is missing, its pages are left out with a message.
+# packages first. The programs and the Python module are taken from build/release, or from
+# PH_BUILD_DIR. If one is missing, its pages are left out with a message.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 scripts/setup.sh docs

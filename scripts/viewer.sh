@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Builds the page of the reports, viewer/build/report-template.html, and runs its tests in headless
+# Builds the report page, viewer/build/report-template.html, and runs its tests in headless
 # Chromium: viewer.sh [build|test]. Installs missing packages first.
 set -euo pipefail
 cd "$(dirname "$0")/../viewer"

@@ -3,10 +3,10 @@
 """Compares the cost of alpha complexes with the cost of CGAL's triangulation alone, and with GUDHI:
 compare_alpha.py BUILD [--gudhi-python PYTHON] [--million] [ROW…]
 
-Measures whole programs on one thread, including the time to read: CPU seconds, the least of three
-runs (or the only run, if it is long), and peak memory. GUDHI runs in the faster of its modes `safe`
-and `exact`, because its mode `fast` makes no promises. Bars are compared by their total length in
-each dimension. Prints a table in Markdown."""
+Measures whole programs on one thread, including the time to read the input: CPU seconds (the least
+of three runs, or the only run if it is long) and peak memory. GUDHI runs in the faster of its modes
+`safe` and `exact`, because its mode `fast` guarantees nothing. Bars are compared by their total
+length in each dimension. Prints a table in Markdown."""
 import argparse
 import math
 import os
@@ -114,7 +114,7 @@ def bars_of(path):
 
 def agree(ours, peers):
     """True if the total lengths of the bars agree in each dimension. The numbers of bars are not
-    compared: bars of length 0 here may be as long as a rounding error in GUDHI."""
+    compared, because a bar of length 0 may get a tiny positive length in GUDHI through rounding."""
     for dim, line in enumerate(peers.splitlines()):
         length = float(line.split()[1])
         if not math.isclose(ours.get(dim, (0, 0.0))[1], length, rel_tol=1e-6, abs_tol=1e-9):

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Compares distances of diagrams with Hera, through GUDHI: compare_distances.py [ROW…]
+"""Compares the computation of distances between diagrams with Hera, called through GUDHI:
+compare_distances.py [ROW…]
 
 Needs libph and gudhi in the same Python. Measures only the computation, on one thread, in CPU
 seconds: the least of three runs for libph, and a single run for Hera. The results must agree within
@@ -29,7 +30,7 @@ def near(count, seed):
 
 
 def of_bytes(count, seed):
-    """A diagram with whole numbers from 0 to 255, as for images of bytes: many values are equal."""
+    """A diagram with whole numbers from 0 to 255, as for 8-bit images: many values are equal."""
     bars = np.sort(np.random.default_rng(seed).integers(0, 256, (count, 2)), axis=1).astype(float)
     return bars[bars[:, 0] < bars[:, 1]]
 

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Compares an image on ranks of MPI with one process, and with other programs that use MPI.
+"""Compares an image on several MPI ranks with the same image in one process, and with other MPI
+programs.
 
     compare_ranks.py build/release --rows 128³ --ranks 1,2,4 --peer 'OTHER 1.0 = PROGRAM {input} {output}'
 

@@ -15,7 +15,7 @@ ROLES = ("object", "support", "wall", "floor", "shelf", "bin", "ceiling")
 
 
 def slab(colour, size, middle):
-    """A box whose upper face has its middle at a place."""
+    """A box whose upper face is centred at `middle`."""
     x, y, z = middle
     return Box(size=size, colour=colour).placed(shift=(x, y, z - size[2]))
 
@@ -25,7 +25,7 @@ def grey(random):
 
 
 def add_table(scene, random):
-    """A large table, or one that ends in the picture with the floor behind it."""
+    """A very large table, or a smaller table above a floor."""
     if random.uniform() < 0.7:
         scene.add("support", slab(grey(random), (6, 6, 0.03), (0, 0, 0)))
         return
@@ -35,7 +35,8 @@ def add_table(scene, random):
 
 
 def look_down(scene, random, nearest=0.65, farthest=1.3, flattest=30, steepest=65):
-    """The camera looks down at the middle, at a distance (metres) and a slope (degrees)."""
+    """The camera looks down at the middle of the scene. Its distance (metres) and the slope of its
+    view (degrees) are random, between the given limits."""
     distance = random.uniform(nearest, farthest)
     slope, around = math.radians(random.uniform(flattest, steepest)), random.uniform(0, 2 * math.pi)
     flat = distance * math.cos(slope)
@@ -135,7 +136,8 @@ def lean(random):
 
 
 def flush(random):
-    """Pairs of boxes side by side or on each other, with faces in one plane and other colours."""
+    """Pairs of boxes side by side or on each other, whose faces lie in one plane and whose colours
+    differ."""
     scene = Scene()
     add_table(scene, random)
     for _ in range(random.integers(2, 4)):
@@ -264,7 +266,7 @@ def room(random):
 
 
 def loose(random):
-    """Things without a support, as if its points had been removed."""
+    """Things without a support, as if the points of the support had been removed."""
     make = (table, stack, clutter)[random.integers(3)]
     scene = make(random)
     things = [thing for thing in scene.things if thing.role == "object"]

@@ -16,18 +16,18 @@ GRAZING = 0.09  # cosine of the angle to the normal; flatter rays return nothing
 
 @dataclasses.dataclass(frozen=True)
 class Sensor:
-    """The optics of one kind of camera, which is a pinhole without distortion, and its errors."""
+    """The optics and the errors of one kind of camera, a pinhole without distortion."""
 
     width: int
     height: int
     focal: float  # pixels
     baseline: float  # metres between camera and projector; 0: none, and thus no shadow
-    disparity_noise: float  # pixels, standard deviation; 0: noise of time of flight
+    disparity_noise: float  # pixels, standard deviation; 0: time-of-flight noise
     disparity_step: float  # pixels; disparities are multiples of it
     smooth: int  # passes of a filter that correlates the noise of neighbours
     ragged: float  # pixels, standard deviation of the place that a pixel measures
-    mixed: float  # share of the pixels at an edge that measure between both depths
-    noise: tuple = (0.0, 0.0)  # metres, and metres per metre: of time of flight
+    mixed: float  # share of the pixels at an edge that mix its two depths
+    noise: tuple = (0.0, 0.0)  # time-of-flight noise: metres, and metres per metre
     depth_step: float = 0.0  # metres; depths are multiples of it
 
 
@@ -42,7 +42,7 @@ SENSORS = {
 
 @dataclasses.dataclass(frozen=True)
 class View:
-    """A sensor at a place of the world. `turn` maps directions of the world to the camera."""
+    """A sensor at a place in the world. `turn` maps directions of the world to the camera."""
 
     sensor: Sensor
     eye: numpy.ndarray
@@ -63,7 +63,7 @@ class View:
         return View(sensor, eye, numpy.array([[c, s, 0], [-s, c, 0], [0, 0, 1]]) @ turn)
 
     def rays(self):
-        """A direction per pixel, in the camera, with z = 1."""
+        """A direction per pixel, in the camera's frame, with z = 1."""
         s = self.sensor
         v, u = numpy.mgrid[: s.height, : s.width]
         x, y = (u - (s.width - 1) / 2) / s.focal, (v - (s.height - 1) / 2) / s.focal
@@ -95,7 +95,8 @@ class Image:
 
 
 def cast(view, things):
-    """The exact image. @param things pairs (number, solid); -1 is the number of nothing."""
+    """The exact image. @param things pairs (number, solid); pixels that show nothing get the number
+    -1."""
     rays = view.rays()
     shape = rays.shape[:2]
     depth = numpy.full(shape, numpy.inf)
@@ -126,7 +127,8 @@ def cast(view, things):
 
 
 def smoothed(field, passes):
-    """A field of white noise, correlated by passes of a 3 x 3 mean, with its deviation kept."""
+    """White noise, smoothed by passes of a 3 x 3 mean; each pass ends with a rescaling to the
+    standard deviation 1."""
     for _ in range(passes):
         around = numpy.pad(field, 1, mode="edge")
         field = sum(
@@ -145,7 +147,8 @@ def shadow(sensor, depth):
         place = numpy.where(
             numpy.isfinite(depth), columns - sensor.focal * sensor.baseline / depth, numpy.inf
         )
-    # A point is hidden from the projector if a point to the right of it has a place to its left.
+    # `place` is the column in the projector's view. A point is hidden from the projector if a point
+    # farther right in the camera's view lies farther left in the projector's view.
     least = numpy.minimum.accumulate(place[:, ::-1], axis=1)[:, ::-1]
     return place > least + 1.5
 
@@ -158,7 +161,8 @@ def ragged(sensor, image, generator):
     v = numpy.clip(v + offset(), 0, shape[0] - 1)
     u = numpy.clip(u + offset(), 0, shape[1] - 1)
     moved = Image(image.depth[v, u], image.thing[v, u], image.colour, image.cosine[v, u])
-    # Within one thing the place stays its own: a surface does not become rough.
+    # If the other place is on the same thing, the pixel measures its own place, because surfaces
+    # must not become rough.
     same = moved.thing == image.thing
     moved.depth[same] = image.depth[same]
     moved.cosine[same] = image.cosine[same]

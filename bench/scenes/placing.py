@@ -12,7 +12,7 @@ import numpy
 
 from shapes import turned
 
-CELL = 0.004  # metres: the width of a cell of the grid of rays
+CELL = 0.004  # metres: the width of a cell of the ray grid
 TOUCH = 0.0015  # metres: solids that are nearer than this touch
 SKY = 10.0  # metres; every solid is between -SKY and SKY
 
@@ -27,7 +27,7 @@ class Thing:
 
 @dataclasses.dataclass
 class Scene:
-    """Things and a camera: where it stands and what it looks at."""
+    """Things and a camera: where the camera stands and what it looks at."""
 
     things: list = dataclasses.field(default_factory=list)
     eye: tuple = (0.0, -0.7, 0.7)
@@ -101,7 +101,8 @@ def top_of(solids):
 
 
 def rest(scene, solids, x, y):
-    """The solids, moved to (x, y) and let down until they rest on the scene; None if they tip."""
+    """The solids, moved to (x, y) and lowered until they rest on the scene; None if they tip
+    over."""
     solids = moved(solids, (x, y, 0))
     places, lower = footprint(solids)
     gap = lower - heights(scene.solids(), places, above=True)
@@ -147,8 +148,8 @@ def put(scene, random, make, area, gap, floor=0.0, tries=40):
 
 
 def drop(scene, random, area, make, tries=30):
-    """Lets things down at places of an area, within which they must stay, and adds the one that
-    comes to rest lowest. For `make` and `area`, see `somewhere`."""
+    """Lowers things at random places in an area, within which they must stay. Adds the thing that
+    comes to rest with the lowest top. For `make` and `area`, see `somewhere`."""
     best = None
     for _ in range(tries):
         solids, x, y = somewhere(random, make, area)

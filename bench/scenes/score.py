@@ -5,8 +5,8 @@
     score.py build/release --seeds 0-19
 
 prints, for each kind, the mean F measure of objects with its standard error, and the mean number of
-strays: segments of which less than half lies on objects. A segment of ph-segment counts if its role
-is that of an object. The score of a frame is the mean over five voxel edges (4.7 to 5.3 mm).
+strays: segments of which less than half lies on objects. A segment of ph-segment counts only if its
+role is `object`. The score of a frame is the mean over five voxel edges (4.7 to 5.3 mm).
 
 A program for --peer is NAME = COMMAND, as for segmentation_scores.py. The printed difference is our
 F minus its F, averaged over the frames. A command with {edge} runs once per voxel edge: {edge}
@@ -39,21 +39,24 @@ RANGE = {"room": "--max-range 6"}
 
 
 def variants(program, kind, edges):
-    """The programs to run on a frame of a kind, one per voxel edge if the program takes it."""
+    """The programs to run on a frame of a kind, one per voxel edge if the command contains
+    {edge}."""
     text = program.text.replace("{range}", RANGE.get(kind, ""))
     edges = edges if "{edge}" in text else ("",)
     return [Program(program.name, text.replace("{edge}", edge)) for edge in edges]
 
 
 def of_objects(labels, summary):
-    """The labels of a run of ph-segment, with 0 for segments of other roles, such as containers."""
+    """The labels of a run of ph-segment, with 0 for segments that are not objects, such as
+    containers."""
     segments = json.loads(summary.read_text())["segments"]
     others = [s["label"] for s in segments if s["role"] != "object"]
     return numpy.where(numpy.isin(labels, others), 0, labels)
 
 
 def strays(truth, labels):
-    """The number of segments of which less than half of the points with truth is on objects."""
+    """The number of segments of which less than half lies on objects. Only points with a true label
+    count."""
     known = (truth > 0) & (labels > 0)
     on_all = numpy.bincount(labels[known])
     is_object = truth >= segmentation_metrics.FIRST_OBJECT

@@ -16,7 +16,7 @@ def colour_of(random):
 
 
 def look_of(random):
-    """A colour and, every other time, a printed pattern."""
+    """A colour and, with probability 1/2, a printed pattern."""
     look = {"colour": colour_of(random)}
     if random.uniform() < 0.5:
         along = ((1, 0, 0), (0, 1, 0), (0, 0, 1))[random.integers(3)]

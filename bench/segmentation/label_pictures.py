@@ -65,8 +65,8 @@ def painted(numbers, seen, striped=()):
 
 
 def shaded(image, points, sensor_light=0.45):
-    """The image, darker where the surface turns away from the sensor, as computed from depth
-    alone."""
+    """The image, darker where the surface turns away from the sensor. The shading is computed from
+    the depth alone."""
     dx, dy = (numpy.gradient(points, axis=axis) for axis in (1, 0))
     normal = numpy.cross(dx, dy)
     with numpy.errstate(invalid="ignore", divide="ignore"):
@@ -89,7 +89,7 @@ def surroundings(shown, margin=24):
 
 def beside(truth_labels, predictions, parts=False, points=None, step=2):
     """The ground truth beside each prediction, cropped to objects and segments. @param points rows
-    x columns x 3, for shading. @param step keep only every step-th pixel of each axis."""
+    x columns x 3, for shading. @param step keep only every step-th pixel along each axis."""
     seen = truth_labels > 0
     truth, objects = metrics.truth_of(truth_labels, parts)
     images = [painted(truth, seen)]

@@ -17,8 +17,8 @@ def without(scene, lost):
 
 
 def noise(scene, millimetres, generator):
-    """Moves each point along its ray such that its depth changes by a normal deviate. The standard
-    deviation is `millimetres` at one metre, and grows with depth²."""
+    """Moves each point along its ray such that its depth changes by a normally distributed amount.
+    The standard deviation is `millimetres` at one metre, and grows with depth²."""
     z = scene.points[:, 2:]
     sigma = millimetres / 1000 * z**2
     moved = scene.points * (1 + sigma * generator.standard_normal(z.shape) / z)

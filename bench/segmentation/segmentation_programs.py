@@ -102,8 +102,8 @@ def peer(text):
 
 def ours(build, options=""):
     program = shlex.quote(str(build / "apps/segment/ph-segment"))
-    # Measures the stages on one thread. The check is part of the default and is timed as a separate
-    # stage.
+    # Measures the stages on one thread. The check of the tree runs by default and is timed as a
+    # separate stage.
     return Program(
         f"{OURS} {options}".strip(),
         f"stages={{output}}.json {program} {{input}} --quiet --threads 1 "

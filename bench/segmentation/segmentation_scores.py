@@ -19,8 +19,9 @@ file, one per line, which is given as @FILE.
 
 Scores are always computed. A program with "supervoxels" in its name or options gets the scores for
 pieces of objects: boundary recall and under-segmentation error. --times measures CPU seconds and
-memory, --perturb degrades the frames, --cross-validate chooses options by the other categories, and
---pictures draws labels; see docs/notes/segmentation-benchmarks.md. Needs numpy.
+memory, --perturb degrades the frames, --cross-validate chooses the options for each category by the
+scores of the other categories, and --pictures draws labels; see
+docs/notes/segmentation-benchmarks.md. Needs numpy.
 """
 import argparse
 import csv

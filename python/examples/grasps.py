@@ -26,7 +26,7 @@ class Grasp(NamedTuple):
 
 
 class CannotGrasp(ValueError):
-    """This gripper cannot take this object from above; the message says why."""
+    """This gripper cannot grasp this object from above; the message says why."""
 
 
 def matrix(x, y, z, origin):
@@ -50,7 +50,7 @@ def from_above(centre, axes, size, plane, gripper=Gripper(), towards=(1, 0, 0)):
 
     plane: a, b, c, d of ax + by + cz + d = 0, the removed plane; its normal points up. towards: a
     direction that selects one of two equal grasps, which differ by half a turn about the approach;
-    x is the direction nearer to it. Raises CannotGrasp.
+    the x axis of the chosen grasp is nearer to this direction. Raises CannotGrasp.
     """
     centre, axes, size = (np.asarray(value, dtype=float) for value in (centre, axes, size))
     up, offset = np.asarray(plane[:3], dtype=float), float(plane[3])

@@ -22,7 +22,7 @@ def grow(X, steps, rate):
 
 
 def picture(path):
-    """Points and diagrams before, on the way and after."""
+    """Points and diagrams before, during and after the growth."""
     import matplotlib.pyplot as plt
     figure, axes = plt.subplots(2, 3, figsize=(9, 6), constrained_layout=True)
     X, done = np.random.default_rng(0).random((100, 2)), 0

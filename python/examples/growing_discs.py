@@ -21,7 +21,7 @@ def points_of_ring():
 
 
 def draw_discs(axes, points, diameter):
-    """Draws the discs, and a line where two meet."""
+    """Draws the discs, and a line between the centres of any two discs that meet."""
     import matplotlib.pyplot as plt
     for x, y in points:
         axes.add_patch(plt.Circle((x, y), diameter / 2, color="C0", alpha=0.25, linewidth=0))

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Builds wheels with CMake: a build backend (PEP 517, PEP 660) on the standard library alone.
+"""Builds wheels with CMake: a build backend (PEP 517, PEP 660) that needs only the standard
+library.
 
 ``pip install .`` therefore needs no network if CMake, a compiler and pybind11 are installed.
 Settings (``pip install . --config-settings NAME=VALUE``):
@@ -29,7 +30,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 NAME = "libph"
-# The files that a build needs and that an archive of the sources contains.
+# The files that a build needs and that a source archive contains.
 SOURCES = ("CMakeLists.txt", "cmake", "libph", "libsegment", "libreport", "viewer", "python",
            "pyproject.toml", "LICENSE", "README.md", "CHANGELOG.md", "CITATION.cff",
            "docs/reference/python.md")
@@ -41,7 +42,7 @@ def version():
 
 def metadata():
     """The file METADATA of a wheel. It repeats what pyproject.toml says about the project, because
-    Python 3.9 has no parser of TOML. A test checks that both agree."""
+    Python 3.9 has no TOML parser. A test checks that both agree."""
     return f"""\
 Metadata-Version: 2.1
 Name: {NAME}

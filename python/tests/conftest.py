@@ -17,7 +17,7 @@ def _names_of_doctests(doctest_namespace):
 
 @pytest.fixture
 def rng(request):
-    """A separate random generator for each test, with the same numbers each time."""
+    """A random generator whose seed is the name of the test."""
     return np.random.default_rng(list(request.node.name.encode()))
 
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""ph.alpha: compares bars with the bars of a SciPy triangulation, whose values are computed by the
-definition. Also tests weights, surfaces and refused inputs."""
+"""ph.alpha: compares bars with the bars of a SciPy triangulation whose filtration values are
+computed from the definition. Also tests weights, surfaces and refused inputs."""
 import itertools
 import pickle
 
@@ -34,7 +34,7 @@ def by_definition(points):
                 radius = min(value for other, value in values.items()
                              if len(other) == size + 1 and set(simplex) < set(other))
             values[simplex] = radius
-    # Makes sure that no face is later than a coface, in spite of rounding.
+    # In spite of rounding, no face may enter later than its cofaces.
     for simplex in sorted(values, key=len, reverse=True):
         for face in itertools.combinations(simplex, len(simplex) - 1):
             if face:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Barcode: a sequence with arrays, cells, chains, summaries and files."""
+"""Tests Barcode as a sequence, and its arrays, cells, chains, summaries and files."""
 import copy
 import html.parser
 import json
@@ -41,7 +41,7 @@ each = pytest.mark.parametrize("bars", [pytest.param(make(), id=name)
 
 
 def parts(bars):
-    """All visible properties of a barcode."""
+    """All properties of a barcode that its methods return."""
     seen = [bars.dims, bars.births, bars.deaths]
     if bars._bars.has_cells:
         for dim in range(4):

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Compares distances of barcodes with SciPy's assignments, on matrices with a place on the diagonal
-for each bar."""
+"""Compares distances between barcodes with the costs of optimal assignments, which SciPy computes.
+In the cost matrices, each bar can also be paired with the diagonal."""
 import itertools
 import math
 import pickle
@@ -41,7 +41,7 @@ def wasserstein_by_scipy(a, b, order, ground):
 
 
 def bottleneck_by_scipy(a, b):
-    """The least value for which an assignment exists whose costs are all at most this value."""
+    """The least value such that some assignment uses only costs of at most this value."""
     costs = costs_of(a, b, np.inf)
     for value in np.unique(costs):
         rows, columns = optimize.linear_sum_assignment(costs > value)

@@ -49,12 +49,12 @@ PAGES = [page.relative_to(SOURCE).as_posix() for page in sorted((SOURCE / "docs"
          if ">>> " in page.read_text()]
 
 
-# Debian 12's Dask starts the event loop of its Tornado in a deprecated way.
+# In Debian 12, Dask starts Tornado's event loop in a deprecated way.
 @pytest.mark.filterwarnings("ignore:make_current is deprecated:DeprecationWarning")
 @pytest.mark.parametrize("name", PAGES)
 def test_pages(name, monkeypatch):
-    """Each page runs in the root of the repository. The packages that a page imports must be
-    installed."""
+    """The examples of each page run in the root of the repository. If a package that the page
+    imports is missing, the test is skipped."""
     page = SOURCE / name
     imported = set(re.findall(r">>> (?:import|from) (\w+)", page.read_text())) & OPTIONAL
     for package in sorted(imported | NEEDED.get(name, set())):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Known answers, function by function."""
+"""Compares the results of each function with known answers."""
 import itertools
 import pickle
 
@@ -42,8 +42,7 @@ def test_a_torus():
 
 
 def test_a_sphere_and_a_projective_plane_differ_by_field():
-    """The projective plane, triangulated with six vertices, has other bars over Z/2 than over
-    Z/3."""
+    """The projective plane, triangulated with six vertices, has different bars over Z/2 and Z/3."""
     triangles = [(0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 5), (0, 1, 5), (1, 2, 4), (2, 3, 5),
                  (1, 3, 4), (2, 4, 5), (1, 3, 5)]
     plane = sorted({face for t in triangles for k in (1, 2, 3)

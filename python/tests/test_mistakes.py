@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""First mistakes: likely misunderstandings cause a warning, or an error that names the right
+"""Beginners' mistakes: likely misunderstandings cause a warning, or an error that names the right
 call."""
 import inspect
 import warnings

@@ -151,7 +151,7 @@ def read(name):
 
 
 def words_of(notebook):
-    """The text of a notebook's Markdown cells, with single blanks between words."""
+    """The text of a notebook's Markdown cells, with single spaces between words."""
     text = " ".join(cell.source for cell in notebook.cells if cell.cell_type == "markdown")
     return re.sub(r"\s+", " ", text)
 

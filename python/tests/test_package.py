@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The package as a whole: its exports, wheels."""
+"""Tests the package as a whole: its exports and its wheels."""
 import os
 import re
 import shutil

@@ -41,7 +41,7 @@ def numbers(cell):
 
 
 def check(bars, expected):
-    """Compares bars with all output of the program about them."""
+    """Compares bars with everything that the program writes about them."""
     assert [(b["dim"], b["birth"], np.inf if b["death"] is None else b["death"])
             for b in expected["bars"]] == list(bars)
     births = [row for d in range(bars._top_dim + 1) for row in bars.birth_cells(d).tolist()]

@@ -53,8 +53,8 @@ def test_p_values_of_barcodes(rng):
 
 
 def test_confidence_radius(rng):
-    """For subsamples that leave out one point, the radius is twice the largest distance of a point
-    to its nearest neighbour."""
+    """For subsamples that leave out one point, the radius is twice the largest distance from a
+    point to its nearest neighbour."""
     X = rng.random((12, 3))
     gaps = np.linalg.norm(X[:, None] - X, axis=2) + np.diag(np.full(12, INF))
     found = ph.confidence_radius(X, size=11, subsamples=3000, alpha=0.001)
@@ -107,7 +107,7 @@ def test_confidence_band(rng):
     width = band.upper - band.lower
     assert width.shape == (3, 4) and np.allclose(width, width[0, 0])
     # For twelve independent numbers, the factor lies between the quantile of a single number and
-    # Bonferroni's bound.
+    # the Bonferroni bound.
     sd = samples.std(axis=0).max() / math.sqrt(80)
     assert 1.96 * sd * 0.8 < width[0, 0] / 2 < 3.2 * sd
     one = ph.confidence_band(samples[:, 0, :1], repetitions=20000)

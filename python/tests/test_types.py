@@ -15,7 +15,8 @@ from libph import _core
 SOURCE = Path(os.environ.get("PH_SOURCE_DIR", Path(__file__).parents[2]))
 CONFIG = SOURCE / "pyproject.toml"
 
-# Code of a user. The comment of a line has the code of mypy's error and a part of its message.
+# An example of a user's code. The comment on a line states the code of the error that mypy reports
+# for this line, and a part of the message.
 USE = '''
 from __future__ import annotations
 
@@ -110,7 +111,7 @@ scene.labels.sort(axes=0)                            # call-arg: "axes"
 
 @pytest.fixture(scope="module")
 def mypy(tmp_path_factory):
-    """A function that runs mypy, or a tool of mypy, in an empty folder and returns its messages.
+    """A function that runs mypy, or one of its tools, in an empty folder and returns its messages.
     The cache is kept between runs."""
     pytest.importorskip("mypy", reason="mypy is missing, which looks at types")
     cache = tmp_path_factory.mktemp("cache")

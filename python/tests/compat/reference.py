@@ -14,8 +14,8 @@ def sign(vertices):
 
 
 class Flag:
-    """A flag filtration. `distances` is a matrix, with inf for vertices that are never joined;
-    `births` are the births of the vertices."""
+    """A flag filtration. `distances` is a matrix, with inf for each pair of vertices that no edge
+    joins. `births` has the birth of each vertex."""
 
     def __init__(self, distances, births=None, limit=INF):
         self.n = len(distances)
@@ -62,9 +62,9 @@ class Flag:
         return [np.array(sorted(b)).reshape(-1, 2) for b in bars]
 
     def check_cocycle(self, rows, p, birth, death):
-        """Checks a cocycle. Each row has the vertices of a simplex and its coefficient. The cocycle
-        is zero on simplices before the birth, its coboundary is zero before the death, and at the
-        birth it is not a coboundary."""
+        """Checks a cocycle. Each row holds the vertices of a simplex and its coefficient. The
+        cocycle must be zero on all simplices that are older than the birth. Its coboundary must be
+        zero before the death. At the birth, the cocycle must not be a coboundary."""
         dim = len(rows[0]) - 2
         cochain = {}
         for *vertices, coefficient in np.asarray(rows).tolist():

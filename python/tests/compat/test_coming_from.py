@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Compares the statements of docs/how-to/coming-from.md about GUDHI's calls with GUDHI."""
+"""Checks by calling GUDHI what docs/how-to/coming-from.md says about GUDHI's functions."""
 import numpy as np
 import pytest
 

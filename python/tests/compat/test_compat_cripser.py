@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The promises of the drop-in for CubicalRipser, tested without CubicalRipser."""
+"""Tests what the drop-in for CubicalRipser promises. CubicalRipser itself is not needed."""
 import numpy as np
 import pytest
 
@@ -17,8 +17,8 @@ def dgm_of(rows, dim):
 
 
 def components(image, is_vertices):
-    """H0 of the graph of voxels, in which voxels are neighbours along an axis or, for the other
-    construction, also at a corner."""
+    """H0 of the voxel graph. Each voxel is joined to its neighbours along the axes and, unless
+    `is_vertices` is true, also to its diagonal neighbours."""
     places = list(np.ndindex(image.shape))
     n = len(places)
     distances = np.full((n, n), np.inf)

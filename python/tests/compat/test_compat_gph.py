@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The promises of the drop-in for giotto-ph, tested without giotto-ph."""
+"""Tests what the drop-in for giotto-ph promises. giotto-ph itself is not needed."""
 import itertools
 
 import numpy as np
@@ -131,8 +131,7 @@ def test_points(rng):
 @pytest.mark.parametrize("p", [1, 2, INF])
 @pytest.mark.parametrize("is_sparse", [False, True])
 def test_weights(rng, p, is_sparse):
-    """Two balls meet at the root t of an equation; if they touch before the later one is born, they
-    meet at that birth."""
+    """Two balls meet at the root t of an equation, but not before the later ball is born."""
     distances, births = random_distances(rng, 7, False), 3 * rng.random(7)
     meet = np.zeros((7, 7))
     for i, j in itertools.combinations(range(7), 2):
@@ -152,7 +151,7 @@ def test_weights(rng, p, is_sparse):
     data = sparse.coo_matrix(distances) if is_sparse else distances
     found = of_matrix(data, weights=births, weight_params={"p": p}, maxdim=1, dtype=float)["dgms"]
     for dgm, other in zip(found, Flag(meet, births).bars(1)):
-        other = other[other[:, 1] - other[:, 0] > 1e-9]  # the roots are rounded
+        other = other[other[:, 1] - other[:, 0] > 1e-9]  # rounded roots may add tiny bars
         assert dgm.shape == other.shape
         assert np.allclose(dgm[np.lexsort(dgm.T[::-1])], other)
 

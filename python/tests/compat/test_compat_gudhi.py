@@ -44,8 +44,8 @@ def test_a_tree():
 
 
 def test_the_dimension_of_the_complex():
-    """Bars of the highest dimension are returned on demand. They never die, because there are no
-    cells of a higher dimension."""
+    """Bars of the highest dimension are returned only on request. They never die, because there are
+    no cells of a higher dimension."""
     rips = gudhi.RipsComplex(points=SQUARE)
     for dim in (0, 1):
         tree = rips.create_simplex_tree(dim)
@@ -103,7 +103,7 @@ def test_distance_to_measure(rng, q):
 
 
 def test_the_dimension_of_the_complex_over_fields():
-    """The projective plane has a void over Z/2, but not over other fields."""
+    """The projective plane has a void over Z/2, but over no other field."""
     faces = [(0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 5), (0, 1, 5), (1, 2, 4), (2, 4, 5),
              (2, 3, 5), (1, 3, 5), (1, 3, 4)]
     cells = sorted({cell for face in faces for k in (1, 2, 3)
@@ -155,7 +155,8 @@ def test_trees_of_gudhi(gudhi_itself, seed):
     data = {"points": points} if seed % 4 else {"distance_matrix": squareform(pdist(points))}
     trees = [module.RipsComplex(**data, max_edge_length=limit).create_simplex_tree(max_dimension=3)
              for module in (gudhi, gudhi_itself)]
-    # If GUDHI's complex has a lower dimension, GUDHI returns no bars of that dimension.
+    # The dimension of GUDHI's complex may be below 3. By default, GUDHI returns only bars of
+    # dimensions below it.
     top = trees[1].dimension()
     for options in ({}, {"homology_coeff_field": 3}, {"min_persistence": 0.2},
                     {"min_persistence": -1}, {"persistence_dim_max": top == 3}):
@@ -171,7 +172,8 @@ def test_weighted_trees_of_gudhi(gudhi_itself, seed):
     from gudhi.dtm_rips_complex import DTMRipsComplex
     from gudhi.weighted_rips_complex import WeightedRipsComplex
     rng = np.random.default_rng(seed)
-    # For some seeds, two weights differ by more than the distance of their points.
+    # For some seeds, the weights of two points differ by more than the distance between these
+    # points.
     points, weights = rng.random((8, 2)), [0.2, 0.6][seed // 3] * rng.random(8)
     limit = [INF, 0.9][seed % 2]
     distances = squareform(pdist(points))

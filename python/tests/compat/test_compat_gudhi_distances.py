@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""The drop-in for a part of GUDHI: distances of diagrams, edge collapse, classes for
-scikit-learn."""
+"""Tests the drop-in for a part of GUDHI: distances between diagrams, edge collapse, and the classes
+for scikit-learn."""
 import numpy as np
 import pytest
 import scipy.sparse as sparse

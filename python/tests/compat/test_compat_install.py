@@ -155,7 +155,8 @@ def test_install_refuses():
 
 
 def by_hand(a, b):
-    """The bottleneck distance of a few bars: the best value over all pairings."""
+    """The bottleneck distance between two small diagrams: the least cost over all pairings of
+    bars."""
     best = INF
     for size in range(min(len(a), len(b)) + 1):
         for some in itertools.combinations(range(len(a)), size):

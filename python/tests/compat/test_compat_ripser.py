@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The promises of the drop-in for ripser.py, tested without ripser.py."""
+"""Tests what the drop-in for ripser.py promises. ripser.py itself is not needed."""
 import functools
 import pickle
 import shutil
@@ -55,7 +55,7 @@ def test_bars_are_those_of_rounded_distances(rng, p, ties):
 
 
 def test_thresholds_and_distances_are_compared_in_single_precision():
-    step = 2.0**-24  # half the distance between 1 and the next larger number of single precision
+    step = 2.0**-24  # half the gap between 1 and the next larger float32
     for above, joined in ((0.5 * step, True), (step, True), (1.001 * step, False)):
         matrix = [[0, 1 + above], [1 + above, 0]]
         assert len(of_matrix(np.array(matrix), thresh=1)["dgms"][0]) == 2
@@ -77,7 +77,7 @@ def test_order(rng):
     assert (np.diff(found[0][:, 1]) >= 0).all() and found[0][-1, 1] == INF
     for dgm in found[1:]:
         assert len(dgm) > 1 and (np.diff(dgm[:, 0]) <= 0).all()
-    # Infinite bars are sorted among the others.
+    # Infinite bars are sorted together with the finite bars.
     cut = ripser(rng.random((60, 3)), thresh=0.3)["dgms"][1]
     assert np.isinf(cut[:, 1]).any() and (np.diff(cut[:, 0]) <= 0).all()
     squares = [np.array([[0, 1, d, 1], [1, 0, 1, d], [d, 1, 0, 1], [1, d, 1, 0]])
@@ -93,7 +93,7 @@ def test_num_edges():
     for maxdim in (0, 1):
         assert ripser(SQUARE, thresh=1, maxdim=maxdim)["num_edges"] == 7
     line = np.array([[0.0], [1.0], [2.0], [10.0], [11.0]])
-    assert ripser(line)["num_edges"] == 7  # edges no longer than the enclosing radius 9
+    assert ripser(line)["num_edges"] == 7  # edges up to the enclosing radius, 9
     # The sparse matrix stores no zeros.
     assert of_matrix(sparse.csr_matrix(distances), thresh=1)["num_edges"] == 6
     births = squareform(pdist(line))
@@ -145,7 +145,7 @@ def test_n_perm(rng):
         for dgm, other in zip(found["dgms"], part["dgms"]):
             assert np.allclose(dgm, other)
     angles = ripser(rng.random((40, 7)), n_perm=12, metric="cosine")
-    # The distance of a chosen point to itself is exactly 0, in spite of rounding.
+    # The distance from a chosen point to itself is exactly 0, in spite of rounding.
     assert not angles["dperm2all"][np.arange(12), angles["idx_perm"]].any()
     for n_perm in (0, None, 40):
         found = ripser(points, n_perm=n_perm)
@@ -268,7 +268,7 @@ def test_the_class(capsys):
 
 
 def by_hand(image):
-    """H0 of the graph of pixels in which each pixel has eight neighbours."""
+    """H0 of the graph in which each pixel is joined to its eight neighbours."""
     image = np.asarray(image, dtype=float)
     places = list(np.ndindex(image.shape))
     distances = np.array([[max(image[a], image[b]) if max(abs(a[0] - b[0]), abs(a[1] - b[1])) == 1

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""The drop-in for ripser.py with matrices: births, negative values, sparse and large ones."""
+"""Tests the drop-in for ripser.py on matrices: with births, with negative values, sparse, and
+large."""
 import functools
 
 import numpy as np
@@ -38,8 +39,8 @@ def test_a_point_that_enters_beyond_the_threshold_never_dies():
 
 
 def test_the_point_that_is_near_to_all_may_be_late():
-    """The last point is near to all others but is born late. The enclosing radius that it gives is
-    valid only from its birth on."""
+    """The last point is near to all others but is born late. The enclosing radius around this point
+    is therefore valid only from its birth on."""
     matrix = np.array([[0, 2, 3, 2, 1], [2, 0, 2, 3, 1], [3, 2, 0, 2, 1], [2, 3, 2, 0, 1],
                        [1, 1, 1, 1, 5.0]])
     found = of_matrix(matrix)["dgms"]
@@ -96,7 +97,7 @@ def test_asymmetry_by_rounding_is_none_and_the_upper_entry_counts():
 
 
 def test_large_matrices_are_looked_at_in_strips(rng):
-    """A matrix of more than 512 rows."""
+    """The matrix has more than 512 rows."""
     points = rng.random((700, 2))
     points[[0, 690]] = [[0, 0], [0.5, 0.5]]  # a corner, and the centre
     matrix = squareform(pdist(points))

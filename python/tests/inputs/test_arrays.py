@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Arrays of all kinds are read correctly, and never modified."""
+"""Tests that arrays of all kinds are read correctly and are never modified."""
 import collections
 import decimal
 import fractions
@@ -19,7 +19,7 @@ IMAGE = RNG.integers(0, 200, size=(9, 8, 7))
 
 
 class HasArray:
-    """An array in the form that other libraries use."""
+    """Offers its array through `__array__`, like the arrays of other libraries."""
 
     def __init__(self, array):
         self.array = array
@@ -113,7 +113,7 @@ def copied(data):
 
 
 def of_type(array, name):
-    """The array's values reduced to numbers that the type can hold, and the same numbers as
+    """The array's values, mapped to numbers that the type can hold: once in this type, and once as
     float64."""
     kept = array % 2 if name == "bool" else np.abs(array) % 100
     return kept.astype(name), kept.astype(float)
@@ -145,7 +145,7 @@ def test_layouts(layout, name, data, compute):
 def test_types(name, compute):
     given, plain = of_type(POINTS, name)
     if compute not in (ph.rips, ph.cubical, ph.merge_tree) and given.dtype.kind in "bu":
-        given = plain  # for these types, NumPy's own results wrap around
+        given = plain  # NumPy's differences of these types wrap around
     before = given.copy()
     result, expected = compute(given), compute(plain)
     assert np.array_equal(given, before)
@@ -170,7 +170,7 @@ def test_memory_maps(tmp_path, mode):
 
 
 def test_a_memory_map_that_was_written_to(tmp_path):
-    """Pages of a memory map that were written to differ from the file. They must not be dropped."""
+    """Modified pages of a memory map differ from the file. They must not be dropped."""
     image = mapped(np.zeros((64, 64, 64), dtype=np.uint8), tmp_path, "c")
     image[...] = np.random.default_rng(0).integers(0, 255, size=image.shape)
     expected = image.copy()

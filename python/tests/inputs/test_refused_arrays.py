@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Inputs that are not arrays of numbers are refused with a message that names the place of the
-fault, and are never modified."""
+"""Inputs that are not arrays of numbers are refused with a message that says where the fault is,
+and are never modified."""
 import re
 
 import numpy as np
@@ -29,7 +29,7 @@ def pairs(*entries, n=4):
 
 
 def point(i, k, value, dtype=None):
-    """Points of which one coordinate is replaced."""
+    """Points with one coordinate replaced."""
     made = np.zeros((5, 3)) if dtype is None else np.zeros((5, 3), dtype)
     made[i, k] = value
     return made

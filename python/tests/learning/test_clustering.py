@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Compares estimators that take one cloud, including clustering, with plain loops and with
-GUDHI."""
+"""Tests the estimators that take a single cloud, such as clustering, against plain loops and
+against GUDHI."""
 import math
 import warnings
 
@@ -106,8 +106,8 @@ def test_farthest_points(rng):
 
 
 def tomato(function, neighbours, least):
-    """The published algorithm, ToMATo, one point at a time. The label of a point is the peak of its
-    cluster."""
+    """The published algorithm ToMATo, which processes one point at a time. The label of a point is
+    the peak of its cluster."""
     n = len(function)
     order = sorted(range(n), key=lambda i: (function[i], i))
     rank = {point: r for r, point in enumerate(order)}
@@ -164,8 +164,7 @@ def test_ties(rng):
     X = np.argwhere(rng.random((12, 12)) < 0.8).astype(float)
     density = rng.integers(1, 4, len(X)).astype(float)
     found = PersistenceClustering(5, min_persistence=0.5, density=lambda _: density).fit(X)
-    # The estimator uses the same search, which therefore makes the same choice among equal
-    # distances.
+    # The estimator uses the same search. Both therefore make the same choice among equal distances.
     search = sklearn.neighbors.NearestNeighbors(n_neighbors=5).fit(X)
     expected = tomato(-np.log(density), search.kneighbors(X)[1], 0.5)
     assert np.array_equal(found.peaks_[found.labels_], expected)
@@ -203,8 +202,8 @@ def test_the_number_of_clusters(rng):
     ([0.5, 0.45, 0.4, 0.2, 0.19], 4), ([0.5, 0.4, 0.35, 0.3, 0.28, 0.25, 0.22], 8),
     ([0.5, 0.38, 0.36, 0.30, 0.25, 0.2, 0.16, 0.11, 0.06], 1)])
 def test_the_number_that_is_guessed(lengths, expected):
-    """Hills in a row, of which the first is the highest. The other hills rise above their passes by
-    these lengths."""
+    """There is a row of hills. The first hill is the highest; `lengths` has the heights of the
+    other hills above their passes."""
     values = [0.0, 10.0]
     for length in lengths:
         values += [5.0 - length, 5.0]

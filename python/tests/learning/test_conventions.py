@@ -103,9 +103,9 @@ def density(dgm, sigma, births, lengths):
 
 
 def test_images_of_gudhi(dgm):
-    """GUDHI computes densities at evenly spaced points, of which the first and the last are the ends
-    of a range. They are the centres of the pixels of a range that is longer by half a step at each
-    end."""
+    """GUDHI computes densities at evenly spaced points. The first and the last point are the ends
+    of a range. If the range is extended by half a step at each end, the points are the centres of
+    its pixels."""
     sigma, (b, p), (low, high), longest = 0.2, (7, 5), (-1.0, 1.0), 2.0
     points = np.linspace(low, high, b), np.linspace(0, longest, p)
     step = (high - low) / (b - 1), longest / (p - 1)
@@ -141,8 +141,8 @@ def test_images_of_persim(dgm):
 
 
 def blurred(counts, sigma):
-    """Blurs the counts along both axes by a discrete normal distribution that is cut off at 4 sigma
-    and has the sum 1."""
+    """Blurs the counts along both axes with a discrete normal distribution that is cut off at 4
+    sigma and sums to 1."""
     reach = int(4 * sigma + 0.5)
     weights = np.exp(-np.arange(-reach, reach + 1)**2 / (2 * sigma**2))
     weights /= weights.sum()

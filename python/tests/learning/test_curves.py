@@ -76,7 +76,7 @@ def plain_euler(image, construction, t):
     """The Euler characteristic of a small image at the value t: counts the cells that are present,
     one by one."""
     cells = {}
-    # An odd coordinate is a unit interval.
+    # The cells have doubled coordinates, in which an odd number stands for a unit interval.
     for corner in np.ndindex(*(2 * n + 1 for n in image.shape)):
         if construction == "vertices":
             # Coordinates in the doubled grid: even ones are voxels, and odd ones are the cells

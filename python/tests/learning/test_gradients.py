@@ -145,7 +145,7 @@ def test_condensed_distances(rng, distances):
 
 @pytest.mark.parametrize("dtm", [{}, {"weights": "dtm", "dtm_neighbors": 3}])
 def test_a_matrix(rng, distances, dtm):
-    """Both entries of a symmetric pair change together, and each has half of the derivative."""
+    """The two entries of a symmetric pair change together, and each gets half of the derivative."""
     barcode = functools.partial(ph.rips, metric="precomputed", **dtm)
     bars = barcode(distances)
     d = rng.standard_normal(len(bars)) * np.isfinite(bars.deaths)
@@ -322,7 +322,7 @@ def test_deciders(rng):
     births, deaths = deciders(bars, values)
     assert np.array_equal(values[births[:, 0]], bars.births)
 
-    weights = np.full(20, 5.0)  # so large that each birth is the birth of a point
+    weights = np.full(20, 5.0)  # so large that each bar is born with a point
     births, deaths = deciders(ph.rips(X, weights=weights), X, weights=weights)
     assert (births[:, 0] == births[:, 1]).all()
 

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""The estimators of libph.sklearn: scikit-learn's own checks, pipelines, tables of pandas."""
+"""Tests the estimators of libph.sklearn with scikit-learn's own checks, in pipelines, and on pandas
+tables."""
 import os
 import pickle
 import subprocess

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The estimators that compute persistence, from lists of clouds and images to lists of diagrams."""
+"""Tests the estimators that turn lists of clouds or images into lists of diagrams."""
 import os
 import signal
 import threading
@@ -38,8 +38,7 @@ def test_rips(clouds):
 def test_options_of_rips(clouds, how):
     found = RipsPersistence(**how).fit_transform(clouds)
     assert same(found, [[ph.rips(c, **how).dgm(d) for d in (0, 1)] for c in clouds])
-    # Each option changes the result, except merging, the field and collapses, which do not change
-    # the bars.
+    # Each option changes the bars of these clouds, except `field` and `collapse`.
     if not {"field", "collapse"} & set(how):
         assert not same(found, RipsPersistence().fit_transform(clouds))
 

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""libph.torch: torch's own check of gradients by finite differences, and tensors of all kinds."""
+"""Tests libph.torch with torch's own finite-difference check of gradients, and with tensors of all
+kinds."""
 import os
 import re
 from pathlib import Path

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Parts of clouds computed by separate processes: the same components as from one process."""
+"""Tests that the parts of a cloud, computed by separate processes, give the same components as a
+single process."""
 import concurrent.futures
 import itertools
 import multiprocessing

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Loops of volumes that parts find together through messages: the same bars as from one process."""
+"""Tests that the parts of a volume, which exchange messages, find the same loops as a single
+process."""
 import copy
 import multiprocessing
 import os
@@ -23,7 +24,7 @@ VOLUME = RNG.random((12, 8, 7)).astype(np.float32)
 
 
 def begun(image, count, field=2, **options):
-    """The joined parts, and for each part an ImageLoops object, which has begun."""
+    """The joined parts and, for each part, an ImageLoops object that has already begun."""
     parts = [ph.image_part(image, i, count, loops=True, **options) for i in range(count)]
     whole = ph.join_parts(random.Random(1).sample(parts, count))
     loops = [ph.ImageLoops(part, field=field) for part in parts]
@@ -197,7 +198,7 @@ def test_calls_out_of_order():
     for field in (4, 1, "two"):
         with pytest.raises(ph.UsageError, match="field"):
             ph.ImageLoops(part, field=field)
-    loops = ph.ImageLoops(part)  # the refused calls have not taken the voxels of the part
+    loops = ph.ImageLoops(part)  # the part still has its voxels after the refused calls
     with pytest.raises(ph.UsageError, match="has lent its voxels"):
         ph.ImageLoops(part)
     assert repr(loops) == "ImageLoops(0 of 2, shape=(12, 8, 7))" and loops.is_idle

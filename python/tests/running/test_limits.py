@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Limits of memory, and default options that hold within a `with` block."""
+"""Memory limits, and default options that apply within a `with` block."""
 import textwrap
 import threading
 

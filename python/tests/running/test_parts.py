@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Parts of images computed by separate processes: the same bars as from one process."""
+"""Tests that the parts of an image, computed by separate processes, give the same bars as a single
+process."""
 import concurrent.futures
 import multiprocessing
 import pickle

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Computations in threads and in processes, and computations that run while Python ends."""
+"""Computations in threads and in processes, and computations that run while Python exits."""
 import concurrent.futures
 import copy
 import multiprocessing
@@ -35,7 +35,7 @@ def test_threads_do_not_change_the_result(compute):
 
 
 def test_the_gil_is_released():
-    """Other threads of Python continue while a computation runs."""
+    """Other Python threads continue while a computation runs."""
     ticks, stop = [], threading.Event()
 
     def tick():

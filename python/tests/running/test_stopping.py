@@ -13,7 +13,7 @@ import pytest
 import libph as ph
 from workloads import VOLUME, normal, run_python, symmetric
 
-SOON = 1.0  # seconds; usually 0.02 to 0.1, but machines that run tests are busy
+SOON = 1.0  # seconds; usually 0.02 to 0.1, but test machines are busy
 
 
 def diagram(n):
@@ -51,7 +51,7 @@ one_of_the_long = pytest.mark.parametrize("name", LONG)
 
 
 def interrupt_after(seconds):
-    """Sends Ctrl-C after some seconds; returns the time when it was sent."""
+    """Sends Ctrl-C after this many seconds; returns the time when it was sent."""
     fired = []
 
     def fire():
@@ -213,8 +213,8 @@ def test_progress_true_is_a_bar_of_tqdm(monkeypatch):
 
 
 def test_where_the_system_gives_no_thread():
-    """Without a second thread, the computation itself checks the time, requests to stop and
-    signals, and reports its progress."""
+    """Without a second thread, the computation itself checks the clock, checks for stop requests
+    and signals, and reports its progress."""
     code = textwrap.dedent("""
         import os, resource, signal, threading, time
         import numpy as np

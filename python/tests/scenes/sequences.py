@@ -9,7 +9,7 @@ FRAMES = 10
 TURN, SHIFT = np.deg2rad(0.2), 0.002  # standard deviations of the camera's pose
 EYE = np.array([0.0, -0.9, 0.9])      # x right, y away, z up; the camera looks down at 45 degrees
 ROOM_CAMERA = (340.0, 340.0, 319.5, 239.5)
-BLOCKS = np.array([                   # the least and largest corner of each block
+BLOCKS = np.array([                   # the least and largest coordinates of each block
     [(-0.6, -0.5, -0.02), (0.6, 0.5, 0.0)], [(-0.12, -0.05, 0.0), (0.06, 0.09, 0.13)],
     [(-0.07, -0.02, 0.13), (0.02, 0.07, 0.2)], [(0.13, -0.05, 0.0), (0.27, 0.07, 0.11)],
     [(-0.5, 0.6, -0.1), (0.5, 0.62, 1.5)]])
@@ -29,8 +29,8 @@ def pose(rng):
 
 
 def room(rng, moves=True):
-    """The depth in metres of a table with boxes in front of a wall, and the block that each pixel
-    shows."""
+    """The depth, in metres, of a table with boxes in front of a wall; and the number of the block
+    that each pixel shows."""
     fx, fy, cx, cy = ROOM_CAMERA
     v, u = np.mgrid[:480, :640]
     c = np.sqrt(0.5)
@@ -50,9 +50,9 @@ def room(rng, moves=True):
 
 
 def seen_again(depth, camera, noise, rng):
-    """A frame from a camera that has moved a little. @param noise standard deviation of depth at
-    one metre, in metres; it grows with the square of the depth. Single pixels left empty by the
-    resampling are filled."""
+    """A frame from a camera that has moved a little. Single pixels that the resampling leaves empty
+    are filled. @param noise standard deviation of the depth at one metre, in metres; it grows with
+    the square of the depth."""
     fx, fy, cx, cy = camera
     height, width = depth.shape
     z = depth + noise * depth**2 * rng.normal(size=depth.shape)
@@ -74,8 +74,8 @@ def seen_again(depth, camera, noise, rng):
 
 
 def noise_on(depth, camera, plane):
-    """The scatter of depth about a plane, as its value at one metre; it grows with the square of
-    the depth."""
+    """The scatter of the depth about a plane, scaled to a depth of one metre, because scatter grows
+    with the square of the depth."""
     fx, fy, cx, cy = camera
     v, u = np.mgrid[:depth.shape[0], :depth.shape[1]]
     a, b, c, d = plane
@@ -85,7 +85,7 @@ def noise_on(depth, camera, plane):
 
 
 def read_png(path):
-    """Reads an image with 16 bits and one channel."""
+    """Reads a PNG image that has one channel of 16 bits."""
     data = path.read_bytes()
     at, packed, width, height = 8, b"", 0, 0
     while at < len(data):

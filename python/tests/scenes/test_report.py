@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Reports from Python equal the pages of --report, except for their stated origin. Frames are shown
-in notebooks."""
+"""Tests that reports from Python equal the pages that --report writes, except for the stated
+origin, and that notebooks show reports in an iframe."""
 import html.parser
 import json
 import os
@@ -27,7 +27,7 @@ def parts(page):
 
 
 def differing(mine, its):
-    """The lines that differ, cut to their first characters, which contain a name."""
+    """The lines that differ, each cut to its beginning, which identifies the line."""
     mine, its = mine.split("\n"), its.split("\n")
     return [(a[:120], b[:120]) for a, b in zip(mine, its) if a != b] + [len(mine)] * (
         len(mine) != len(its))
@@ -62,7 +62,7 @@ def barcode_page(program, tmp_path):
     return page
 
 
-# Adding 0.0 turns -0 into 0, as the readers of files do.
+# Adding 0.0 turns -0 into 0, as the file readers do.
 POINTS = np.random.default_rng(3).normal(size=(50, 2)).round(2) + 0.0
 SOLID = np.random.default_rng(4).normal(size=(40, 5))
 

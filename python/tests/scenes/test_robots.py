@@ -177,7 +177,7 @@ def test_the_frame_of_the_cloud_does_not_matter(rng):
 def test_fingers_stay_above_the_plane():
     grasp = from_above(*box((0.1, 0.04, 0.02)), TABLE)
     assert grasp.pose[2, 3] == pytest.approx(Gripper().clearance)
-    # On top of another object, a grasp may use the full length of the fingers.
+    # For an object on top of another object, a grasp may use the full length of the fingers.
     stacked = from_above(*box((0.1, 0.04, 0.02), bottom=0.1), TABLE)
     assert stacked.pose[2, 3] == pytest.approx(0.12 - Gripper().finger)
 

@@ -140,7 +140,7 @@ def test_depth_images(program, seed):
 
 
 def png(array):
-    """A PNG file with an RGB image of bytes."""
+    """A PNG file of an RGB image with 8 bits per channel."""
     rows = b"".join(b"\0" + row.tobytes() for row in array)
 
     def chunk(name, data):
@@ -169,7 +169,7 @@ def test_colours_go_into_files(program, rng):
         assert own.read_bytes() == written.read_bytes()
     points = points_of_scene(rng)
     colours = rng.integers(0, 256, (len(points), 3))
-    colours[0, 0] = 200  # without a large number, the program may read them as numbers from 0 to 1
+    colours[0, 0] = 200  # otherwise the colours could pass for numbers from 0 to 1
     np.save(program.folder / "points.npy", np.hstack([points, colours]))
     for name in ("labelled.ply", "labelled.pcd"):
         program(program.folder / "points.npy", more=("-o", program.folder / name))

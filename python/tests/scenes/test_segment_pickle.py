@@ -42,8 +42,7 @@ def table():
 
 
 def same(a, b):
-    """True if all properties of two segmentations are equal to the last bit and have the same
-    types."""
+    """True if all properties of two segmentations are bitwise equal and have the same types."""
     if isinstance(a, np.ndarray):
         return a.dtype == b.dtype and a.shape == b.shape and a.tobytes() == b.tobytes()
     if isinstance(a, tuple):

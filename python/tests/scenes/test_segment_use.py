@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""How segmentations are used: cuts into a number of objects, arrays of all kinds, messages,
-limits."""
+"""Tests how segmentations are used: cuts into a given number of objects, arrays of all kinds,
+messages, and limits."""
 import os
 import re
 import threading

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Labels, roles and the plane are steady over ten frames of one scene."""
+"""Tests that labels, roles and the plane stay stable over ten frames of one scene."""
 import json
 import os
 import pickle
@@ -23,7 +23,7 @@ REAL = {"ucn0": (UCN, 1000), "ucn1": (UCN, 1000), "ucn2": (UCN, 1000), "ucn3": (
 
 
 def tracked(depths, camera, **options):
-    """Segmentations of consecutive frames, and the identities of the objects of each."""
+    """Segmentations of consecutive frames, and the identities of the objects in each frame."""
     tracker, scene, frames = ph.LabelTracker(), None, []
     for depth in depths:
         scene = ph.segment(depth, intrinsics=camera, previous=scene, check=False, **options)
