@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Bundles the page into one template, build/report-template.html. It fixes the script, the style,
-// and their hashes in the content security policy; later the programs replace the marker by a
-// payload. Beside the template, report-template.inputs lists all files in the page, including files
-// of npm packages. Usage: node build.mjs [output folder]
+// Bundles the page into one template, build/report-template.html. The template has the final script
+// and style, and their hashes in its content security policy. The programs later replace its marker
+// with a payload. Beside the template, report-template.inputs lists all files in the page,
+// including files of npm packages. Usage: node build.mjs [output folder]
 import { createHash } from "node:crypto";
 import { mkdirSync, readdirSync, readFileSync, writeFileSync } from "node:fs";
 import { dirname, join, relative } from "node:path";
@@ -12,8 +12,8 @@ import { build } from "esbuild";
 const here = dirname(fileURLToPath(import.meta.url));
 const folder = process.argv[2] ?? join(here, "build");
 
-// Uses the sources of three.js, not its authors' bundle, so that report-template.inputs lists the
-// source of everything in the page.
+// Uses the source files of three.js instead of the bundle that three.js ships, so that
+// report-template.inputs lists the source of everything in the page.
 const asWritten = {
   name: "as-written",
   setup(steps) {

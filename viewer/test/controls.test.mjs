@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Tests words and controls around the views: legible in dark mode, in one line on a phone, and in
-// the style of the reader's device.
+// Tests that words and controls around the views are legible in dark mode, fit in one line on a
+// phone, and have the style of the reader's device.
 import assert from "node:assert/strict";
 import test from "node:test";
 import { image } from "./support/image_fixture.mjs";
@@ -116,8 +116,8 @@ test("words and controls", { timeout: 200_000 }, async (t) => {
     const { page, close } = await open(browser, image());
     const { width, height, ...pixels } = await pixelsOf(page, ".ramp", [0.4, 0.03, 0.6, 0.97]);
     const levels = Array.from({ length: height }, (_, y) => pixels[4 * y * width]);
-    // A difference of one is rounding: a stripe of the page between two steps is lighter by up to
-    // 55.
+    // A difference of one is rounding. If the page showed between two steps, the stripe would be
+    // lighter by up to 55.
     const rises = levels.filter((level, y) => y > 0 && level > levels[y - 1] + 1);
     assert.equal(rises.length, 0, `${levels}`);
     assert.ok(levels[0] > 200 && levels.at(-1) < 50);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Tests drawing positions without a browser: fanned-out dots, lines of a matching.
+// Tests the positions of drawn items without a browser: fanned-out dots, and the lines of a
+// matching.
 import assert from "node:assert/strict";
 import test from "node:test";
 import { importSource } from "./support/import_source.mjs";
@@ -35,7 +36,7 @@ test("dots on the line of infinity stand side by side, within the axis", () => {
     [kLeft, 5, 8],
     [kRight, 5, 8],
     [200, 5, 8],
-    [kLeft, 36, 8], // more than there is room for at full pitch
+    [kLeft, 36, 8], // more than fit at full pitch
     [kRight, 36, 8],
     [200, 60, 2],
   ]) {

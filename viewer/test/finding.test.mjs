@@ -38,7 +38,8 @@ test("the widest gap", () => {
   assert.deepEqual(widestGap([10, 9, 8, 7, 6, 0.9, 1e-9]), { count: 5, ratio: 6 / 0.9 });
   assert.deepEqual(widestGap([3]), { count: 1, ratio: Infinity });
   assert.deepEqual(widestGap([3, 3]), { count: 2, ratio: Infinity });
-  // If there are so few bars, all of them may stand out, unless the gap is much wider than chance.
+  // If there are so few bars, all of them may stand out, unless the gap is much wider than chance
+  // explains.
   assert.deepEqual(widestGap([3, 1]), { count: 2, ratio: Infinity });
   assert.deepEqual(widestGap([3, 0.5]), { count: 1, ratio: 6 });
   assert.deepEqual(widestGap([3, 1], 1), { count: 1, ratio: 3 });
@@ -232,7 +233,7 @@ test("the void of a closed surface leads only if there is nothing else", () => {
   const legs = [[0, -2, 2], [0, -2, 1.9], ...noise(0, [0.2, 0.1, 0.1, 0.1], 0)];
   const last = /^Three components stand out.* One void stands out as well\.$/;
   assert.match(finding([...sphere, ...legs]).sentence, last);
-  // A void that ends is a hollow of the values, which is not trivial.
+  // A void that ends depends on the values, and thus says something about the data.
   assert.match(finding([...sphere, [2, -1, 2], ...legs]).sentence, /^Two voids/);
 });
 

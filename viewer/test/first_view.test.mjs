@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Tests what a reader sees before the first click: the finding, a cloud without holes whose back is
-// hidden, an unchanged image, informative panels, all of it also on a phone.
+// hidden, an unchanged image, and informative panels. Everything is tested on a phone as well.
 import assert from "node:assert/strict";
 import test from "node:test";
 import { barArrays, metaOf } from "./support/fixture_parts.mjs";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Tests geometry in space against slow methods with the same results.
+// Compares the geometry in space with the results of slow, simple methods.
 import assert from "node:assert/strict";
 import test from "node:test";
 import { importSource } from "./support/import_source.mjs";

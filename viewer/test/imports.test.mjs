@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Tests the rooms of src/ against the table in README.md. A room imports only what its row names, a
-// row names only rows above it and npm packages, no module needs itself (types included), and no
-// folder has more than 20 files.
+// row names only rows above it and npm packages, no module imports itself through other modules
+// (even for types only), and no folder has more than 20 files.
 import assert from "node:assert/strict";
 import { readdirSync, readFileSync, statSync } from "node:fs";
 import { dirname, join } from "node:path/posix";

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Tests that large reports stay usable: sizes and times of many bars, leaves, points.
+// Tests the size and speed of large reports: with many bars, leaves or points, they must stay
+// usable.
 import assert from "node:assert/strict";
 import test from "node:test";
 import * as odd from "./support/odd_fixtures.mjs";

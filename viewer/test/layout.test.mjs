@@ -26,7 +26,7 @@ function elsewhere({ meta, arrays }, valueOf) {
   };
 }
 
-/// Controls that are outside their panel, or with something else over them.
+/// Controls that are outside their panel or covered by something else.
 const unreachable = (page) =>
   page.evaluate(() => {
     const bad = [];

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Tests that highlights and selections of one view appear in all, that the slider cuts like the
-// programs, and that the selection is what is exported.
+// Tests that highlights and selections in one view appear in all views, that the slider makes the
+// same cuts as the programs, and that exactly the selection is exported.
 import assert from "node:assert/strict";
 import test from "node:test";
 import { image } from "./support/image_fixture.mjs";

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Opens reports of the programs in headless Chromium. Usage: node programs.test.mjs PH_BARCODE
 // PH_SEGMENT. The environment variable PH_TEST_DATA names the folder of the optional test data,
-// which has a real scene. Exit code 77: nothing could be tested.
+// which include a real scene. Exit code 77: nothing could be tested.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";

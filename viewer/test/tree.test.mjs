@@ -64,7 +64,7 @@ for (const rule of ["persistence", "value"])
         );
         const labels = Array.from(arrays["points/leaf"], (leaf) => found.labelOfLeaf[leaf] ?? 0);
         // In a tree by value that starts above 0, nothing is known about the inside of a leaf that
-        // enters after the cut: labels are not compared.
+        // enters after the cut. Therefore the labels are not compared.
         if (rule === "value" && from > 0) continue;
         assert.deepEqual(labels, [...expected.labels], `seed ${seed} cut ${cut}`);
       }
@@ -144,7 +144,7 @@ test("what lies on a plane is no segment, at every cut", () => {
     const { tree, vertexOfPoint } = scene(seed, seed % 2 === 0);
     const { arrays, leafOf } = contracted(tree, vertexOfPoint, { rule: "persistence" });
     const next = random(seed + 1000);
-    // Two planes; for each component, the first plane with enough of its vertices counts.
+    // There are two planes. A component belongs to the first plane that has enough of its vertices.
     const on = [0, 1].map(() => Uint8Array.from(tree.births, () => Number(next() < 0.7)));
     const counts = new Uint32Array(2 * arrays["tree/leaf_birth"].length);
     leafOf.forEach((leaf, v) => [0, 1].forEach((p) => (counts[2 * leaf + p] += on[p][v])));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Tests numbers on the page: enough digits, the programs' digits in written files; and the steps of
-// the cut.
+// Tests that numbers on the page have enough digits, and that numbers in written files have the
+// same digits as in the programs' files. Also tests the steps of the cut.
 import assert from "node:assert/strict";
 import test from "node:test";
 import { importSource } from "./support/import_source.mjs";

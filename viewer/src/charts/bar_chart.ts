@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Charts whose items are bars: diagram and barcode. They share keyboard, table and description.
+// Charts whose items are bars: diagram and barcode. They share the keyboard control, the table and
+// the description.
 import { Chart } from "./chart";
 import { table } from "../common/dom";
 import { counted, homology, short } from "../common/number_format";
@@ -8,7 +9,7 @@ import type { Session } from "../model/session";
 
 const kMostRows = 500;
 
-/// "H₁ [0.5, 2.25), persistence 1.75", with its barcode if there are two.
+/// "H₁ [0.5, 2.25), persistence 1.75"; the name of the bar's barcode follows if there are two.
 export function nameOfBar(session: Session, bar: number): string {
   const { bars, meta } = session.report;
   const of = meta.barcodes.length > 1 ? `, ${meta.barcodes[bars.barcodeOf(bar)]!.name}` : "";

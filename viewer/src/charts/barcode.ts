@@ -29,7 +29,7 @@ const kLeft = 34,
   kGap = 10,
   kRowsOfNoNote = 12,
   kDigit = 5.5,
-  kMostRedrawn = 50_000; // number of bars up to which they are redrawn at each cut
+  kMostRedrawn = 50_000; // most bars that are redrawn whenever the cut changes
 
 interface Band {
   dim: number;
@@ -123,14 +123,14 @@ export class Barcode extends BarChart {
     }
   }
   /// Draws the numbers of bars. All bars must be drawn first, so that no bar covers a number. If
-  /// neighbouring rows are lower than a number, their bars share one text, which stands at the end
-  /// of the longest of these bars.
+  /// rows are less high than a number, the bars of neighbouring rows share one text, which stands
+  /// at the end of the longest of these bars.
   private drawNumbers(pen: Pen): void {
     const numbers = this.session.numbers();
     const numbered = this.items.filter((item) => numbers.has(item.bar));
     for (const group of closeTogether(numbered)) {
       const x = 3 + Math.max(...group.map((item) => item.x2 + reachOf(item)));
-      const y = group[0]!.y + group[0]!.row / 2; // the next group is far enough from it
+      const y = group[0]!.y + group[0]!.row / 2; // the next group is far enough away
       const own = group.map((item) => this.session.numberOf(numbers.get(item.bar)!));
       pen.text(x, y + 3.5, asManyAsFit(own, (this.size.width - x) / kDigit), {
         colour: this.session.theme.muted,
@@ -158,8 +158,8 @@ export class Barcode extends BarChart {
     const dims = this.session.dimsInOrder().filter((dim) => !this.session.hiddenDims.has(dim));
     if (dims.length === 0) return;
     const room = bottom - top - kGap * dims.length;
-    // If the finding is not about components, their bars make room for other dimensions; only
-    // coloured bars of components keep their rows.
+    // If the finding is not about components, bars of components get only the rows that other
+    // dimensions leave, but enough rows for the coloured bars.
     const few = this.session.finding.dim !== 0;
     const tinted = 2 * this.session.tintedBars().size;
     const counts = dims.map((dim) => Math.max(...meta.barcodes.map((_, i) => bars.count(dim, i))));

@@ -47,7 +47,8 @@ export function withRows(bars: Uint32Array, wanted: number[], most: number): Uin
   return result;
 }
 
-/// Shares rows among bands: none gets more than it needs, and the rest goes to the others.
+/// Shares rows among bands. No band gets more rows than it needs; the rows that it leaves go to the
+/// other bands.
 function shared(needs: number[], rows: number): number[] {
   const given = needs.map(() => 0);
   let open = needs.map((_, i) => i),

@@ -157,8 +157,8 @@ export class CutChart extends Chart {
       ...(this.suggested === undefined || this.suggested === own ? [] : [to("widest gap", this.suggested)]),
     ];
   }
-  /// Names the step of the program's answer that a cut of the tree does not include; empty if there
-  /// is none.
+  /// Says whether the program's answer is shown, if this answer joins parts of objects; otherwise
+  /// empty.
   private note(): string {
     const { meta } = this.session.report;
     if (!meta.scene?.objects) return "";

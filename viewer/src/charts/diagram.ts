@@ -101,8 +101,8 @@ export class Diagram extends BarChart {
     this.drawCounts(pen, crowds);
   }
 
-  /// Writes how many bars each crowd has, the largest crowd first; a number that would overlap
-  /// another one is left out.
+  /// Writes the number of bars at each crowd, starting with the largest crowd. A number that would
+  /// overlap another one is left out.
   private drawCounts(pen: Pen, crowds: Crowd[]): void {
     const { theme } = this.session,
       labelPlaces = new LabelPlaces(10);

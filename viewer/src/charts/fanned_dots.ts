@@ -14,8 +14,8 @@ export interface Crowd {
   count: number;
 }
 
-/// Moves the dots of equal bars: on the line of infinity side by side, elsewhere around their
-/// place.
+/// Moves the dots of equal bars apart: side by side on the line of infinity, and around their place
+/// elsewhere.
 /// @param groups the bars at each place, in the order in which they are placed.
 /// @param onLine true if a bar is on the line of infinity.
 /// @param isNumbered true if a bar has its number beside it and must not be hidden.

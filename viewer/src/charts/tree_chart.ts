@@ -80,7 +80,7 @@ export class TreeChart extends Chart {
       pen.line(left, tick.at, size.width - kRight, tick.at, theme.grid);
       pen.text(left - 6, tick.at + 3.5, tick.label, { ...small, anchor: "end" });
     }
-    // The title is the title of the barcode's axis, which shows the same values.
+    // The axis has the same title as the axis of the barcode, because both show the same values.
     const label = clipped(meta.value.label.toLowerCase(), 24);
     pen.text(12, size.height / 2, unit ? `${label} (${unit})` : label, {
       ...small,

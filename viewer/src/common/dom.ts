@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Creates elements without markup: every text goes through textContent, so that no name of a file
-// or a field can become HTML.
+// Creates elements without markup: every text goes through textContent, so that the name of a file
+// or a field cannot become HTML.
 
 /// The size of an element in pixels.
 export interface Size {

@@ -15,7 +15,7 @@ export interface Theme {
   faint: string; // axes, ticks
   grid: string;
   panel: string;
-  shade: string; // area where no bar can be
+  shade: string; // area in which no bar can lie
   accent: string;
 }
 
@@ -81,8 +81,8 @@ export function segmentColour(i: number): Rgb {
   return rgb.map((c) => Math.round(c + share * (towards - c))) as Rgb;
 }
 
-/// A colour number for each segment, such that touching segments differ. Each gets its `wish` if
-/// possible, so that a segment keeps its colour while the cut changes around it.
+/// A colour number for each segment, such that touching segments differ. Each segment gets its
+/// `wish` if possible, so that a segment keeps its colour while the cut changes around it.
 export function coloursApart(touching: Iterable<number>[], wish: number[]): number[] {
   const choice: number[] = [];
   const uses = new Array<number>(kSegments.length).fill(0);

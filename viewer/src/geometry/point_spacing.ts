@@ -48,7 +48,8 @@ class Grid {
       this.low.push(sample[cut]!);
       size.push(sample[sample.length - 1 - cut]! - sample[cut]!);
     }
-    // Assumes a surface as large as the two longer sides of the box, with some points in each cube.
+    // Assumes that the points cover an area with the two longer sides of the box. The edge of the
+    // cubes is chosen such that each cube on this area holds some points.
     const [long, middle] = size.sort((a, b) => b - a) as [number, number];
     this.cube = 2.5 * Math.sqrt((long * Math.max(middle, long / count)) / count) || 1;
     this.mask = 2 ** Math.ceil(Math.log2(count + 1)) - 1;

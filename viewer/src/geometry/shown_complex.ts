@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The complex up to a filtration value: the edges that the program wrote or, for a Vietoris-Rips
-// complex whose points are all here, the pairs within that distance; and its triangles.
+// The edges and triangles of the complex up to a filtration value. The edges are the edges that the
+// program wrote or, for a Vietoris-Rips complex whose points are all shown, the pairs of points
+// within this distance.
 import { elementOf } from "./cell_geometry";
 import { shortestPairs, trianglesOf, type SortedPairs } from "./near_pairs";
 import type { Numbers } from "../model/payload";

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Sets of voxels of bars: the voxels and, in a volume, the surface around them.
+// The voxel set of each bar: its voxels and, in a volume, the surface around them.
 import { placeInImage } from "./cell_geometry";
 import type { Numbers } from "../model/payload";
 import type { VoxelSets } from "../model/report";
 
-/// The runs of a bar; nothing if it has no set.
+/// The runs of the set of a bar; empty if the bar has no set.
 export function runsOf(sets: VoxelSets | undefined, bar: number): Numbers {
   const set = sets?.ofBar.get(bar);
   if (!sets || set === undefined) return new Uint32Array();

@@ -146,7 +146,7 @@ export class Bars {
 
 /// The indices of numbers >= 0, the largest first; equal numbers keep their order. A comparison
 /// sort of a million bars would take too long: two radix passes of 16 bits over float32 come first,
-/// then a sort of the values that these cannot distinguish.
+/// then a sort of the values that these passes cannot distinguish.
 function decreasing(values: Float64Array): Uint32Array {
   const n = values.length,
     bits = new Uint32Array(Float32Array.from(values).buffer);

@@ -7,8 +7,9 @@ export type ColourMode =
 
 const kLeastPart = 0.02; // share of the largest segment
 
-/// The colour modes of a report, the default first: an image unchanged, a mesh by its values,
-/// segments if there are several, otherwise one colour.
+/// The colour modes of a report, the default first. An image is unchanged by default, and a mesh is
+/// coloured by its values. Other data are coloured by segment if there are several segments,
+/// otherwise by the input colours, and without these in one colour.
 export function colourModesOf(report: Report): [ColourMode, string][] {
   const { elements, tree, cloud, image, isMesh, meta } = report;
   const modes: [ColourMode, string][] = [];

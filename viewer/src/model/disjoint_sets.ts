@@ -7,7 +7,7 @@ export function numbered(size: number): Uint32Array {
   return numbers;
 }
 
-/// Disjoint sets by path halving; the root of a set is its smallest number.
+/// Disjoint sets with path halving; the root of a set is its smallest number.
 export class DisjointSets {
   private readonly parent: Uint32Array;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Finds the bars that stand out, and writes the sentence above the views about them.
+// Finds the bars that stand out, and writes the sentence about them, which stands above the views.
 // docs/reference/report.md describes the criterion.
 import { kLeastShare, kMostAbove, suggestedCut } from "./cuts";
 import { counted, homology, short } from "../common/number_format";
@@ -23,7 +23,7 @@ export interface Gap {
 }
 
 const kLeastRatio = 2, // ratio of a gap that makes bars stand out
-  kWideAmongFew = 4, // the same, if so few bars are above the gap that it may include all bars
+  kWideAmongFew = 4, // the same, among so few bars that all may lie above the gap
   // Least length of a bar that is alone in its dimension, as a share of the longest bar of H1 and
   // higher.
   kLeastAlone = 1 / 3,
@@ -36,7 +36,7 @@ const kLeastRatio = 2, // ratio of a gap that makes bars stand out
 /// Lengths below a tenth of the first, and all lengths after the 64th, cannot be the upper end of a
 /// gap.
 /// @param alike the most lengths that may all lie above the gap, with nothing below it; this is the
-/// result unless a gap among them is much wider than chance.
+/// result unless a gap among them is much wider than chance explains.
 /// @param least the fewest lengths that may lie above the gap.
 export function widestGap(lengths: ArrayLike<number>, alike = kFew, least = 1): Gap {
   const gap: Gap = { count: 0, ratio: 1 };
@@ -55,7 +55,7 @@ export function widestGap(lengths: ArrayLike<number>, alike = kFew, least = 1): 
 interface Lengths {
   dim: number;
   endless: number[]; // the bars of infinite length
-  reach: number; // the longest length; infinite bars count up to the end of the values
+  reach: number; // the longest length; an infinite bar counts up to the last value
   isEndless: boolean; // true if a bar never ends; infinite bars may also have no beginning
   finite: number[]; // finite bars, the longest first
   lengths: number[]; // their lengths; for a bar that is alive at the threshold, its known part
@@ -190,8 +190,8 @@ function fate(found: Lengths, many: number, meta: Meta, all: boolean): string {
   return `are apart ${meta.value.negated ? "down" : "up"} to ${short(shownValue(meta, threshold))}`;
 }
 
-/// A finding that selects no bar. If its sentence mentions components, the page still suggests a
-/// cut.
+/// The finding if no bar stands out. It selects no bar, but if its sentence mentions components,
+/// the page still suggests a cut.
 function nothingOf(dim: number, found: Lengths[], report: Report): Finding {
   const sentence = nothing(found, report);
   const gap = toldOf(found, report).some((f) => f.dim === 0) ? gapOfCuts(report) : "";

@@ -48,7 +48,7 @@ export interface Segment {
 
 export interface Cut {
   labelOfLeaf: Uint32Array; // 0: in no segment
-  surfaceOfLeaf: Uint8Array; // 0: on none
+  surfaceOfLeaf: Uint8Array; // 0: on no surface
   segments: Segment[]; // segment i has label i + 1
 }
 
@@ -65,7 +65,8 @@ export class MergeTree {
   readonly rank: Uint32Array;
   /// One past the last index of the branches that merge into a branch.
   readonly end: Uint32Array;
-  /// Bar of each branch and branch of each bar; kNone, or missing, if unknown.
+  /// The bar of each branch, and the branch of each bar. An unknown bar is kNone; an unknown branch
+  /// is missing.
   readonly barOf: Uint32Array;
   private readonly branchOfBar = new Map<number, number>();
 
@@ -118,7 +119,7 @@ export class MergeTree {
       branch = this.parentOf[branch]!;
     }
   }
-  /// The same for all leaves at once.
+  /// For each leaf, the branch that it belongs to in a cut.
   branchesAt(cut: number): Uint32Array {
     const branches = new Uint32Array(this.leaves);
     for (const branch of this.order) {

@@ -31,7 +31,7 @@ export interface SegmentMeta {
   number: number; // the number that names the segment in the files of the program
   colour: string; // "#rrggbb"
   persistence: number | null; // null: infinite
-  // The last two are known only from earlier frames.
+  // The roles "support" and "wall" are known only from earlier frames.
   role: "object" | "container" | "support" | "wall";
   on_surface?: number;
   on_segment?: number; // the number of the segment that it stands on
@@ -41,7 +41,7 @@ export interface SegmentMeta {
 export interface SceneMeta {
   segments: SegmentMeta[];
   surfaces: { role: "support" | "wall" }[]; // by number, from 1
-  removed: number; // how many of these have no leaf on them
+  removed: number; // how many of these surfaces have no leaf
   flat: number; // least share of a surface's vertices on its plane
   objects: boolean; // true if the answer joins the parts of an object
 }

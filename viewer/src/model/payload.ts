@@ -100,7 +100,8 @@ async function inflate(bytes: Uint8Array<ArrayBuffer>): Promise<Uint8Array> {
   return new Uint8Array(await new Response(stream).arrayBuffer());
 }
 
-/// Undoes the filter that stores the first bytes of all numbers, then all second bytes, and so on.
+/// Undoes the filter that stores the first bytes of all numbers, then their second bytes, and so
+/// on.
 function fromPlanes(planes: Uint8Array, size: number): Uint8Array {
   const bytes = new Uint8Array(planes.length);
   const count = planes.length / size;
@@ -110,8 +111,8 @@ function fromPlanes(planes: Uint8Array, size: number): Uint8Array {
   return bytes;
 }
 
-/// Undoes the filter that stores each number as its difference from the row before, modulo the
-/// width of its type.
+/// Undoes the filter that stores each number as its difference from the number in the previous row,
+/// modulo the width of its type.
 function undoDelta(values: Numbers, columns: number): void {
   for (let i = columns; i < values.length; ++i) values[i]! += values[i - columns]!;
 }

@@ -14,7 +14,7 @@ export interface Elements {
   normals: Int8Array | undefined; // octahedral encoding, two per point
   readonly birth: Numbers | undefined; // computed on first use
   truth: Numbers | undefined;
-  surface: Numbers | undefined; // surface that was removed with the point; 0: none
+  surface: Numbers | undefined; // removed surface that the point belonged to; 0: none
   leaf: Numbers | undefined; // leaf in the merge tree; 2^bits - 1: none
 }
 
@@ -47,7 +47,7 @@ export interface VoxelSets {
   ofBar: Map<number, number>;
   start: Numbers; // set i has the runs start[i] … start[i + 1] - 1
   runs: Numbers; // index of the first voxel, and number of voxels, of each run
-  surfaces: Map<number, Float32Array>; // the surfaces of the bars seen last, by bar
+  surfaces: Map<number, Float32Array>; // surfaces of the last bars shown, by bar
 }
 
 export interface Report {
@@ -184,7 +184,7 @@ function isTriangulated({ provenance }: Meta): boolean {
   return ["alpha", "delaunay-cech", "delaunay-rips"].includes(provenance.complex ?? "");
 }
 
-/// Positions relative to the least coordinates, because map coordinates do not fit float32.
+/// Positions relative to the least coordinates, because float32 is too coarse for map coordinates.
 function cloudOf(block: Block | undefined, index: Numbers | undefined): Cloud | undefined {
   if (!block || block.values.length === 0) return undefined;
   const dims = block.shape[1] ?? 1,

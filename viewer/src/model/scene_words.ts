@@ -10,7 +10,7 @@ export function nameOfSurface({ surfaces }: SceneMeta, number: number): string {
   return `${role === "support" || role === "wall" ? role : "surface"} ${number}`;
 }
 
-/// "on support 1", "on 3"; the role of a segment that does not visibly stand on anything.
+/// "on support 1" or "on 3"; the role of the segment if it does not visibly stand on anything.
 export function standing(scene: SceneMeta, segment: SegmentMeta): string {
   if (segment.on_surface) return `on ${nameOfSurface(scene, segment.on_surface)}`;
   if (segment.on_segment) return `on ${segment.on_segment}`;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The state of the page, shared by all views. A view changes it through the methods here and
-// redraws when it is notified of a change; no view knows another.
+// The state of the page, shared by all views. A view changes this state through the methods here,
+// and redraws when it is notified of a change. No view refers to another view.
 import { findingOf, type Finding } from "./finding";
 import { colourModesOf, type ColourMode } from "./colour_modes";
 import { coloursApart, dimColour, fromHex, hex, numberOfColour, segmentColour, themeOf, type Rgb, type Theme } from "../common/palette";
@@ -208,7 +208,7 @@ export class Session {
   private touchingLeaves(): Numbers {
     const { tree, elements, image, cloud } = this.report;
     if (tree!.arrays.touching) return tree!.arrays.touching;
-    // With very many leaves, each is a speck whose colour carries no information.
+    // With very many leaves, each leaf is a speck whose colour carries no information.
     const few = elements?.leaf && tree!.leaves <= 20_000;
     this.touching ??= !few
       ? new Uint32Array()

@@ -45,8 +45,8 @@ export function shownValue(meta: Meta, value: number): number {
   return meta.value.negated ? 0 - value : value;
 }
 
-/// Birth and death of a bar, with enough digits to distinguish them; for bars that never end,
-/// enough to distinguish values of the report.
+/// Birth and death of a bar, with enough digits to distinguish them; for a bar that never ends,
+/// enough digits to distinguish the values in the report.
 export function endsOf({ meta, bars }: Report, bar: number, least = 4): [string, string] {
   const ends = [bars.birth[bar]!, bars.death[bar]!];
   const size = Math.max(...ends.map(Math.abs).filter(Number.isFinite));

@@ -112,8 +112,8 @@ export async function picturePng(svgText: string): Promise<Blob> {
   );
 }
 
-/// `dim,birth,death` as the programs write it, preceded by the barcode if there are two. It holds
-/// the selected bars, or else all shown bars.
+/// The selected bars, or all shown bars if none is selected, as lines `dim,birth,death` in the
+/// format of the programs. If there are two barcodes, the barcode comes first in each line.
 export function selectionCsv(session: Session): string {
   const { bars, meta } = session.report;
   const two = meta.barcodes.length > 1;

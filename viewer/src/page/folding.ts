@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Folds away panels that say nothing about these data: their title and a button that opens them
-// remain.
+// Folds away panels that say nothing about the data. The title of a folded panel remains, with a
+// button that opens it.
 import { button } from "../common/dom";
 import type { Session } from "../model/session";
 

@@ -145,7 +145,7 @@ function marker(dim: number, colour: string): SVGSVGElement {
   );
 }
 
-/// "1,024 points in R^3 · rips · ph-barcode 0.1.0", or the distances of two barcodes.
+/// "1,024 points in R^3 · rips · ph-barcode 0.1.0", or the distances between two barcodes.
 function subtitle({ meta }: Report): string {
   const p = meta.provenance;
   return [p.input?.description, p.complex, ...distancesOf(meta), meta.program]

@@ -13,12 +13,12 @@ export interface Range {
   clipped?: boolean; // true if some values lie beyond its ends
 }
 
-/// Red is in the lowest byte, as textures are read.
+/// Red is in the lowest byte, because textures expect this byte order.
 function packed([r, g, b]: Rgb): number {
   return (0xff000000 | (b << 16) | (g << 8) | r) >>> 0;
 }
 
-/// Mixes two colours: `part` 256ths of the one, and the rest of the other.
+/// Mixes two colours: `part` 256ths of `a`, and the rest of `b`.
 function mixed(a: number, b: number, part: number): number {
   const channel = (shift: number) =>
     ((((a >>> shift) & 255) * part + ((b >>> shift) & 255) * (256 - part)) >> 8) << shift;
@@ -272,8 +272,8 @@ export class Colouring {
   }
 }
 
-/// The share of the values at each end that count as outliers; without this, outliers would use up
-/// most of the greys.
+/// The share of the values at each end that count as outliers; without this limit, outliers would
+/// use up most of the greys.
 export const kOutermost = 0.005;
 
 function withoutOutermost(values: Numbers, whole: Range): Range {

@@ -223,7 +223,7 @@ export class DataView {
     }
     stage.resize(stage.size);
   }
-  /// Fades far points if no camera saw them, because nothing else shows their distance.
+  /// Fades far points unless a camera saw the points, because nothing else shows their distance.
   private showAir(): void {
     const { report, theme, colour } = this.session;
     const part = report.cloud?.dims !== 3 || report.meta.cloud?.viewpoint || colour === "rgb" ? 0 : 0.6;

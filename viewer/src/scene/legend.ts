@@ -205,7 +205,7 @@ function steps(map: (part: number) => Rgb): SVGElement[] {
   });
 }
 
-/// A hint on how to see more of the bars than where they begin and end.
+/// A hint on how to add the voxels or cycles of the bars to the report.
 function noteOf(count: number, kind: "voxels" | "cycles"): string {
   const bars = count === 1 ? "this bar" : "these bars";
   if (kind === "voxels")

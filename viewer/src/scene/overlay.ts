@@ -60,8 +60,8 @@ export class Overlay {
   }
 }
 
-/// The opacity of `count` lines. Beyond `some` lines it falls, because many lines would otherwise
-/// merge into solid black.
+/// The opacity of `count` lines. If there are more than `some` lines, the opacity is lower, because
+/// the lines would otherwise merge into solid black.
 function faintest(opacity: number, count: number, some: number): number {
   return Math.max(0.015, opacity * Math.min(1, (some / count) ** 0.75));
 }

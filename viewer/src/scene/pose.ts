@@ -126,8 +126,8 @@ function extentAlong(sample: number[], axis: Vector3): number {
   return high - low;
 }
 
-/// The pose of the sensor, which looks at the middle of what it sees; sizes are measured at the
-/// distance of the centre.
+/// The pose of the sensor, which looks at the middle of the visible points. Sizes are measured at
+/// the distance of the centre.
 function poseOfSensor(coordinates: number[], sensor: Vector3, around: Pose): Pose {
   const distance = sensor.distanceTo(around.centre);
   const towards = sensor.clone().sub(around.centre).normalize();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Draws a still picture of the cloud or the slice as SVG if there is no WebGL, coloured like the
-// live one.
+// Draws a still picture of the cloud or the slice as SVG if there is no WebGL. It has the colours
+// of the live picture.
 import { PerspectiveCamera, OrthographicCamera, Vector3 } from "three";
 import { svg } from "../common/dom";
 import { axesOf } from "./labels";

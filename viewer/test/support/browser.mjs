@@ -123,8 +123,8 @@ export async function open(
   };
 }
 
-/// Opens a report in a separate browser, which can zoom like a reader, because an emulated screen
-/// reports less to the page. `zoom` returns true if the browser was able to zoom.
+/// Opens a report in a separate browser, where the page can be zoomed as by a reader, because an
+/// emulated screen reports less to the page. `zoom` returns true if the browser was able to zoom.
 export async function openZoomable({ meta, arrays }) {
   const options = { ...optionsOf(true), viewport: null };
   const context = await chromium.launchPersistentContext(join(folder, "profile"), options);

@@ -143,7 +143,7 @@ export function manyBars(n = 1_000_000) {
   };
 }
 
-/// A tree of distances, without points.
+/// A merge tree that was computed from distances, without points.
 export function treeOnly() {
   const { meta, arrays } = clusters(200);
   const { cloud, ...rest } = meta;
@@ -152,7 +152,7 @@ export function treeOnly() {
   return { meta: { ...rest, title: "matrix.csv" }, arrays };
 }
 
-/// Bars with values at the ends of what a double can hold, and an image with holes.
+/// Bars with extremely large and small values, and an image with holes.
 export function extreme() {
   const bars = [
     [0, -1.7e308, 1.7e308],

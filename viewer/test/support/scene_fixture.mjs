@@ -16,7 +16,7 @@ function twoNearest(spots, x, y) {
   return [first, second];
 }
 
-/// The program's result for the parts of its cut: two pairs of them form one object each, and the
+/// The program's result for the parts of its cut: two pairs of parts form one object each, and the
 /// second largest part is a wall. The table is the first surface.
 function answerOf(tree, vertexOfPoint, parts, leafOf, arrays) {
   const joined = new Map([[7, 3], [5, 10]]), // part 7 joins part 3, part 5 joins part 10

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Writes a report as docs/reference/report-format.md describes it, like the programs do in C++.
+// Writes a report as docs/reference/report-format.md describes it and as the C++ programs write it.
 import { deflateSync } from "node:zlib";
 
 const kTypes = new Map([
@@ -16,7 +16,7 @@ const kTypes = new Map([
 const attribute = (text) =>
   String(text).replace(/&/g, "&amp;").replace(/"/g, "&quot;").replace(/</g, "&lt;");
 
-/// Differences from the row before, modulo the width of the type.
+/// The difference of each number from the number in the previous row, modulo the width of the type.
 function differences(values, columns) {
   const result = values.slice();
   for (let i = values.length - 1; i >= columns; --i) result[i] = values[i] - values[i - columns];
