@@ -10,7 +10,7 @@ if it accepts only images with N axes. In the command, {input} is a .npy file of
 and {threads} the number of threads (a command without {threads} is measured with one thread). Bars
 are compared in a separate run. Words in [brackets] are used only in this run; [A|B] means A in this
 run and B in measured runs. In this run, the peer prints one bar per line, as `dim birth death`.
-Arguments may be stored in a file, one per line, which is given as @FILE.
+@FILE stands for the arguments in a file, one per line.
 
 The script measures user + system CPU seconds and peak resident memory of whole processes, including
 reading the image, with output discarded; bench/README.md explains how. Needs numpy.

@@ -9,7 +9,7 @@ A peer is NAME = COMMAND; the name includes the version. In the command, {option
 input in Ripser's options (--format F --dim D [--threshold T] FILE), and {threads} for the number of
 threads (a command without {threads} is measured with one thread). Bars are compared in a separate
 run. Words in [brackets] are used only in this run; [A|B] means A in this run and B in measured
-runs. Arguments may be stored in a file, one per line, which is given as @FILE.
+runs. @FILE stands for the arguments in a file, one per line.
 
 The script measures user + system CPU seconds and peak resident memory of whole processes, with
 output discarded; bench/README.md explains how. Needs only the standard library.

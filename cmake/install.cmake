@@ -42,8 +42,8 @@ endif()
 if(TARGET ph-barcode-mpi)
   install(TARGETS ph-barcode-mpi RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT mpi)
 endif()
-# The pages keep the layout of the repository, because this keeps the links between them valid. A
-# larger project has its own pages.
+# The pages keep the layout of the repository, because this keeps the links between them valid. If
+# libph is part of a larger project, the pages of libph go to a separate folder.
 set(doc_dir ${CMAKE_INSTALL_DOCDIR})
 if(NOT PROJECT_IS_TOP_LEVEL)
   set(doc_dir ${CMAKE_INSTALL_DATAROOTDIR}/doc/libph)

@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: MIT
 # Makes all packages of HEAD and tests them on minimal systems: check_packages.sh [PART]…
 #
-#   archives    makes dist/ with scripts/package.sh, and checks its checksums and the list of files
-#               in the archive of the sources
+#   archives    makes dist/ with scripts/package.sh, and checks its checksums and the file
+#               list of the source archive
 #   build       runs dpkg-buildpackage on these archives, with its tests and without a network
-#   lintian     demands that there are no errors and no warnings; counts other remarks
+#   lintian     fails on errors and warnings; counts other remarks
 #   reproduce   makes archives and packages again in other folders, with a different umask,
 #               language, time zone and home
 #   install     on a bare Debian 12: installs with apt, makes a first picture, runs Python and a C++

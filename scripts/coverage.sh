@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: MIT
 # coverage.sh [readers|engines]…: measures the share of lines that tests reach, by default for both
 # parts of the code. Exits with 1 if a share is below its minimum.
-#   readers  at least 99 %: by the tests of readers, the samples, their prefixes, seeds of fuzzing,
-#            the corpus of bad inputs, and random runs
+#   readers  at least 99 %: by the reader tests, the samples, their prefixes, the fuzzing seeds, the
+#            corpus of bad inputs, and random runs
 #   engines  at least 97 % of libph/src (except files and pictures) and of the internal headers: by
 #            the C++ tests with a fiftieth of their random inputs
 # COVERAGE_BUILD: another build folder. The last lines show the result of each part.

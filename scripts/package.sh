@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 # Makes the archives for distribution in dist/: package.sh [source|binary]… (default: both)
 #
-#   libph-VERSION.tar.xz               the sources of HEAD, with the bundled page of the reports
+#   libph-VERSION.tar.xz               the sources of HEAD, with the bundled report page
 #   debian/                            the sources as a Debian source package
 #   libph-VERSION-linux-MACHINE.tar.xz the programs, linked statically, for any Linux on MACHINE
 #   libph-VERSION-linux-MACHINE.spdx.json   the contents of the programs (SPDX 2.3)
@@ -75,7 +75,7 @@ $name.tar.xz builds the programs anew, with another one if you like.
 END
 }
 
-# Builds the programs from the archive of the sources, which shows that the archive is complete.
+# Builds the programs from the source archive, which shows that the archive is complete.
 make_binary() {
   scripts/setup.sh build
   [ -f "$dist/$name.tar.xz" ] || make_source

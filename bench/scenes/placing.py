@@ -92,7 +92,7 @@ def footprint(solids):
 
 
 def hangs_over(above, below):
-    """True if a part of the solids `above` has no part of the solids `below` under it."""
+    """True if some part of the solids `above` has nothing of the solids `below` under it."""
     return not numpy.isfinite(heights(below, footprint(above)[0], above=True)).all()
 
 

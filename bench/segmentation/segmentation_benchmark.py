@@ -187,7 +187,7 @@ class Benchmark:
 
 def cross_validated(f, categories):
     """Scores each category with the choice that is best on the other categories. @param f the score
-    F of each frame, for each choice. Of equally good choices, the first is used."""
+    F of each frame, for each choice. Among equally good choices, the first one is used."""
     groups, chosen, scores = sorted(set(categories.values())), {}, {}
     of = lambda options, kept: segmentation_tables.mean(
         v for frame, v in f[options].items() if kept(categories[frame])

@@ -14,8 +14,8 @@ A peer is NAME = COMMAND; the name includes the version. In the command, {input}
 {folder} and {name} are its folder and its name without .pcd. The peer writes one label per point,
 in the order of the input, to {output}.npy, {output}.pgm or {output}.pcd; {outputs} is the folder of
 this file. The command may be preceded by background=B (labels up to B are not segments; default 0)
-and stages=FILE (CSV with the seconds of each stage in columns t_NAME). Arguments may be stored in a
-file, one per line, which is given as @FILE.
+and stages=FILE (CSV with the seconds of each stage in columns t_NAME). @FILE stands for the
+arguments in a file, one per line.
 
 Scores are always computed. A program with "supervoxels" in its name or options gets the scores for
 pieces of objects: boundary recall and under-segmentation error. --times measures CPU seconds and

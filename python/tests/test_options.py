@@ -141,7 +141,7 @@ def test_axes_that_close_up():
 
 
 def test_defaults_are_those_of_the_program():
-    """The default max_dim of points is 1; H0 of points needs no threshold."""
+    """For points, max_dim is 1 by default. H0 of points needs no threshold."""
     assert ph.rips(SQUARE).meta["max_dim"] == 1
     assert ph.rips(SQUARE, max_dim=0).meta["engine"] == "union-find"
     assert "threshold" not in ph.rips(SQUARE, max_dim=0).meta

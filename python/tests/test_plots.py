@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The pictures of barcodes that matplotlib draws."""
+"""Tests the pictures of barcodes that matplotlib draws."""
 import numpy as np
 import pytest
 

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""The package and ph-barcode agree: bars, cells, chains and loops, on random inputs of all kinds."""
+"""Tests that the package and ph-barcode compute the same bars, cells, chains and loops on random
+inputs of all kinds."""
 import json
 import subprocess
 

@@ -157,8 +157,8 @@ def test_stub_names_all_that_there_is(mypy):
 
 
 def arguments_of(function):
-    """For each parameter except self: its name (None if it has none), and whether it may be
-    None."""
+    """For each parameter except self: its name, and whether its value may be None. The name is None
+    if the signature states no name."""
     arguments = function.args.args + function.args.kwonlyargs
     return [(None if a.arg.startswith("__") else a.arg,
              re.search(r"\bNone\b", ast.unparse(a.annotation)) is not None)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Data files, read as arrays."""
+"""Tests that data files are read as arrays."""
 import gzip
 import logging
 

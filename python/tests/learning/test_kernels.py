@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Compares kernels of diagrams with their definitions, pair by pair."""
+"""Compares the kernels of pairs of diagrams with the definitions of these kernels."""
 import math
 
 import numpy as np

@@ -102,7 +102,7 @@ def test_image_is_an_integral():
 
 
 def test_image_far_from_its_bars():
-    """The function may omit only the share of a bar that lies beyond eight standard deviations."""
+    """The function may ignore only the part of a bar's density beyond eight standard deviations."""
     bars = np.array([[0.0, 1.0], [50.0, 51.0]])
     pixels = _functions.image(bars, 0.01, (2, 1), (-50.0, 50.5), (0.0, 2.0), 0)
     assert pixels.tolist() == [[pytest.approx(1, abs=2e-15), pytest.approx(1, abs=2e-15)]]

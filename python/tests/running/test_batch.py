@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Computes many inputs in one call."""
+"""Tests the computation of many inputs in one call."""
 import threading
 import time
 

@@ -249,7 +249,7 @@ def test_damage_is_seen():
         loops[to].receive(wrong)
     assert to != 2
     with pytest.raises(ph.DataError):
-        loops[2].receive(message)  # the message was meant for another part
+        loops[2].receive(message)  # the message is for another part
 
 
 def test_what_is_lost_is_seen():

@@ -31,7 +31,7 @@ export interface Focus {
   element: number; // -1: none
 }
 const kNoTints = new Map<number, string>();
-const kMostTinted = 200, // number of segments whose bars have their colours
+const kMostTinted = 200, // most segments whose bars are coloured
   kMostNumbered = 30;
 const kNothing: Focus = { bar: -1, segment: 0, element: -1 };
 
@@ -288,8 +288,8 @@ export class Session {
     return any ? mask : undefined;
   }
   private tints: Map<number, string> | undefined;
-  /// The bars of the largest segments with their colours in the data, if the data show them;
-  /// otherwise none. A grey image shows the colours of selected segments.
+  /// For the bar of each of the largest segments, the colour of the segment in the data; empty if
+  /// the data show no segments. In a grey image, only selected segments have a colour.
   tintedBars(): Map<number, string> {
     const isGrey = this.colour === "grey";
     if ((this.colour !== "segment" && !isGrey) || !this.cut) return kNoTints;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Shows the origin of the page: everything needed to make it again.
+// Shows the origin of the page: everything that is needed to reproduce it.
 import { commandLine } from "../model/command_line";
 import { button, el } from "../common/dom";
 import { bytes, counted, exact, grouped, homology, seconds, short } from "../common/number_format";

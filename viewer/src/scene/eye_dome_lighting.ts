@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Makes the points of a surface look like one: pinholes between their marks are filled, a pixel is
-// darker the farther it lies behind its surroundings (after the eye-dome lighting of Christian
-// Boucheny, 2009), and the surface is lit from the eye.
+// Makes points look like the surface on which they lie: pinholes between their marks are filled, a
+// pixel is darker the farther it lies behind its surroundings (after the eye-dome lighting of
+// Christian Boucheny, 2009), and the surface is lit from the eye.
 import {
   DepthTexture,
   Mesh,

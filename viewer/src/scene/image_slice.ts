@@ -60,7 +60,8 @@ export class ImageSlice {
     this.object.geometry.computeBoundingSphere();
     this.recolour();
   }
-  /// The corners of the slice, in the order first pixel, last column, last pixel, last row.
+  /// The corners of the slice, in the order: first pixel, end of the first row, last pixel, start
+  /// of the last row.
   corners(): number[] {
     const [v, u] = this.sides();
     const corner = (i: number, j: number) => {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Draws text on the data: the numbers of segments, which bars, dots and branches share, and the
-// names of the axes of a volume.
+// Draws text on the data: the numbers of segments, which also appear at bars, dots and branches,
+// and the names of the axes of a volume.
 import { placeInImage } from "../geometry/cell_geometry";
 import { svg } from "../common/dom";
 import { axisNames } from "../model/volume_axes";

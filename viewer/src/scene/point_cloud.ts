@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Shows the points of a cloud on the stage, and finds the point under the pointer. If there are
-// enough points for a surface, their marks are as large as the gaps between them; otherwise they
+// enough points for a surface, their marks close the gaps between the points; otherwise the marks
 // are dots.
 import {
   BufferAttribute,

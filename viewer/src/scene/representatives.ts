@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Shows the location of the selected bars: their representatives and the cells of their birth and
-// death.
+// Shows where the selected bars are in the data: their representatives, and their birth and death
+// cells.
 import { CellGeometry, emptyGeometry, type Geometry } from "../geometry/cell_geometry";
 import { dimColour } from "../common/palette";
 import type { Report } from "../model/report";

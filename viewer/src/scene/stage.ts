@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The three-dimensional picture: renderer, camera and controls. Draws only when something changed.
+// The three-dimensional picture: renderer, camera and controls. Draws only when something has
+// changed.
 import {
   ColorManagement,
   LinearSRGBColorSpace,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Records the words of a chart and their places, because a canvas does not keep them.
+// Records the texts that a chart draws and their places, because a canvas keeps only pixels.
 import { frame } from "./browser.mjs";
 
 /// Redraws the charts. @return for each text of a chart, on both canvases, `text` and its box in
