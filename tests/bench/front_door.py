@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Tests bench/front_door.py: its verdicts on known figures, and the doors of this build on small
-inputs."""
+"""Tests bench/front_door.py: its verdicts on known figures, and on small inputs the ways to call
+this build's libraries, which are named doors."""
 import csv
 import math
 import pathlib

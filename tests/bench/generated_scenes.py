@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""generated_scenes.py BUILD: the frames of the generator agree with geometry, and the same seed
-gives the same frame."""
+"""generated_scenes.py BUILD: the generated frames agree with the geometry, and the same seed gives
+the same frame."""
 import pathlib
 import subprocess
 import sys
@@ -28,7 +28,7 @@ VIEW = cameras.View.towards(cameras.SENSORS["structured-light"], (0.3, -0.8, 0.7
 
 
 def seen(solid):
-    """The points of the world at which the camera sees a solid."""
+    """The visible points of a solid, in world coordinates."""
     image = cameras.cast(VIEW, [(0, solid)])
     points = (VIEW.rays() * image.depth[..., None])[image.thing == 0]
     return points @ VIEW.turn + VIEW.eye

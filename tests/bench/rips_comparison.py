@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""bench/compare_rips.py on a tiny input, with peers that are right, wrong, never end, or take too
-much memory."""
+"""bench/compare_rips.py on a tiny input, with peers that are right, that are wrong, that never end,
+or that use too much memory."""
 import json
 import math
 import pathlib
@@ -121,8 +121,8 @@ class RipsLimit(unittest.TestCase):
         return run.stdout
 
     def test_edges_up_to_the_enclosing_radius(self):
-        # Four points in a row with steps of 1: the enclosing radius is 2, and therefore the pair of
-        # the ends is not an edge.
+        # Four points in a row with steps of 1: the enclosing radius is 2, and therefore no edge
+        # joins the two ends.
         points = self.run_limit("points", b"0,0\n1,0\n\n2 0\n3 0")
         self.assertTrue(points.startswith("4 points, 5 edges, sorted"), points)
         lower = struct.pack("<6f", 1, 2, 1, 3, 2, 1)

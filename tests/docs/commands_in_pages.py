@@ -2,12 +2,12 @@
 """Runs the commands that pages show and compares their output: commands_in_pages.py BIN… [-- PAGE…]
 Without PAGE, it takes all pages with commands.
 
-In a block ```console, each line `$ command` is run. All commands of a page run in a separate folder
-with a copy of examples/, and the folders BIN with the programs are on the path. A backslash at the
-end of a line continues the command. The lines after a command are its expected output, in which `…`
-stands for any text within a line, and a line `…` for any number of lines. Commands that write a
-report are skipped with a message if the report page is not built in, and so are commands that use
-jq if it is missing.
+In a block ```console, each line `$ command` is run. All commands of a page run in a separate
+folder, which contains a copy of examples/. The folders BIN, which contain the programs, are on the
+path. A backslash at the end of a line continues the command. The lines after a command are its
+expected output, in which `…` stands for any text within a line, and a line `…` for any number of
+lines. Commands that write a report are skipped with a message if the report page is not built in,
+and so are commands that use jq if it is missing.
 
 A picture images/pages/NAME.svg on a page must equal, byte for byte, the file NAME.svg that the
 commands of the page write; docs/images/make.py copies it.

@@ -5,9 +5,9 @@
 * A page has one title, in its first line, and can be reached from docs/index.md by links.
 * Prose is at most 100 characters wide.
 * A picture has an alternative text, and each picture in docs/images is shown on a page.
-* A block of code states its language. A block in Python, C, C++ or a console is run by a test, or
-  the preceding line says why not: <!-- not run: REASON -->.
-* The reference of C++ lists all public headers.
+* A code block states its language. A block of Python, C, C++ or console commands is run by a test,
+  or the preceding line says why not: <!-- not run: REASON -->.
+* The C++ reference lists all public headers.
 """
 import re
 import sys
@@ -28,7 +28,7 @@ def pages_of(root):
 
 
 def without_code(text):
-    """Replaces each block of code by as many empty lines."""
+    """Replaces each code block by the same number of empty lines."""
     return FENCE.sub(lambda match: "\n" * match[0].count("\n"), text)
 
 

@@ -7,7 +7,7 @@
 * Nothing is loaded from other servers.
 * Each picture has an alternative text, and each page has a title and a heading.
 * Each page can be reached from index.html.
-* No markup is left in the text: entities, fields, and sentences that were cut off.
+* The text has no leftover entities or fields, and no sentences that were cut off.
 
 Exit code 77: there is no such folder.
 """
@@ -135,7 +135,7 @@ def main():
     pages = {str(file): Page(file) for file in files}
     found = reached(pages, str(root))
     faults = [f"{file}: {fault}" for file, page in pages.items() for fault in faults_of(file, page, pages, str(root))]
-    # search.html is left out, because each page leads to it by its search field.
+    # search.html is left out, because each page leads to it through its search field.
     faults += [f"{file}: index.html does not lead to it" for file in pages
                if file not in found and os.path.basename(file) != "search.html"]
     print("\n".join([*(fault.removeprefix(f"{root}{os.sep}") for fault in faults),

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Lists words of the pages that are neither in hunspell's British dictionary nor in words.txt:
+"""Lists the words on the pages that are neither in hunspell's British dictionary nor in words.txt:
 spelling.py ROOT. words.txt has terms and names, one per line. Exit code 77: hunspell or its
 dictionary is missing."""
 import re
@@ -12,8 +12,7 @@ from pathlib import Path
 from pages import pages_of, without_code
 
 WORDS = Path(__file__).with_name("words.txt")
-# Text that is not prose: comments, code, targets of links, addresses, names of files, numbers with
-# letters.
+# Text that is not prose: comments, code, link targets, addresses, file names, numbers with letters.
 NO_PROSE = [re.compile(pattern, re.DOTALL) for pattern in (
     r"<!--.*?-->", r"`[^`]*`", r"\]\([^)]*\)", r"<[^>\n]*>", r"\bhttps?:\S+", r"\S*[/_@\\]\S*",
     r"\b\w+\.\w[\w.]*", r"\S*\d\S*", r"--?\w[\w-]*")]

@@ -1,14 +1,14 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Checks that everything exists that a forge is asked to run: workflows.py ROOT.
+"""Checks that everything that a forge is told to run exists: workflows.py ROOT.
 
 ROOT/.github/workflows has YAML files. Each file states its events and permissions. Each job says
 where it runs, and has a time limit and steps. Each step runs a command or uses an action of a
-stated version. A program must belong to the image or be an executable file of this repository.
-Presets must exist in CMakePresets.json, with a build preset and a test preset of the same name if
-they are built and tested. Sets must exist in scripts/setup.sh, platforms in scripts/platforms.sh,
-and so on. Forms of .github/ISSUE_TEMPLATE have a name, a description and a body. Exit code 77:
-PyYAML is missing, or there is no such folder, as in an archive of the sources.
+stated version. A program must belong to the runner image or be an executable file of this
+repository. Presets must exist in CMakePresets.json, with a build preset and a test preset of the
+same name if they are built and tested. Sets must exist in scripts/setup.sh, platforms in
+scripts/platforms.sh, and so on. Forms of .github/ISSUE_TEMPLATE have a name, a description and a
+body. Exit code 77: PyYAML is missing, or there is no such folder, as in an archive of the sources.
 """
 import itertools
 import json

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Inputs that another process changes or truncates while they are read: large files are
-memory-mapped."""
+"""Tests inputs that another process changes or truncates while the program reads them. Large files
+are memory-mapped."""
 import os
 import random
 import signal

@@ -146,7 +146,7 @@ class Ripser:
     def takes(self, entry):
         if entry.form not in RIPSER_FORMATS or not is_for_peers(entry):
             return False
-        if entry.form == "dipha":  # of DIPHA's files, Ripser reads distance matrices
+        if entry.form == "dipha":  # of DIPHA's files, Ripser reads only distance matrices
             return content_of(entry)[8:9] == b"\7" or len(content_of(entry)) < 16
         # Ripser's formats have no header rows. Ripser computes in single precision, as its
         # documentation says.
@@ -248,8 +248,8 @@ SOUND = {"points": ("points", "blank.txt"), "distance": ("distances", "full.txt"
 
 
 def calibrate(ours, peers, peak):
-    """Runs all programs on valid files. A peer that fails on one was called in the wrong way, and
-    then no table is written."""
+    """Runs all programs on valid files. If a peer fails on one of these files, it was called in the
+    wrong way, and no table is written."""
     for form, place in SOUND.items():
         options = ("--labels", "-") if FORMS[form].program == "ph-segment" else ()
         if form == "perseus":

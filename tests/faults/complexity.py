@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""complexity.py PH_BARCODE PH_SEGMENT PH_DISTANCE PH_VECTORISE [full] [WORDS…]: runs inputs that
-are designed to take long, called attacks, in sizes n, 2n and 4n. The CPU time must not grow faster
-than the complexity class of the attack allows. Attacks whose time may grow quadratically or faster
-must reach a memory limit, or --dry-run must predict their memory. `full` selects larger sizes, and
-WORDS the attacks whose names contain the words."""
+"""complexity.py PH_BARCODE PH_SEGMENT PH_DISTANCE PH_VECTORISE [full] [WORDS…]: runs attacks, which
+are inputs that are designed to need a long time, in sizes n, 2n and 4n. The CPU time must not grow
+faster than the complexity class of the attack allows. Attacks whose time may grow quadratically or
+faster must reach a memory limit, or --dry-run must predict their memory. `full` selects larger
+sizes, and WORDS the attacks whose names contain the words."""
 import dataclasses
 import gzip
 import math
@@ -24,7 +24,7 @@ SLACK = 2         # times on a busy machine are not exact
 SMALLEST = 0.03   # seconds: in a shorter run, starting the program takes most of the time
 UNHEARD = 0.3     # seconds: a shorter run never counts as too slow
 TRIES = 3
-LARGER = 4        # factor of the sizes with `full`
+LARGER = 4        # `full` multiplies the sizes by this factor
 SECONDS = 120
 
 
@@ -94,7 +94,7 @@ def tiny_cluster(n):
 
 
 def doubling(n):
-    """Points whose distances from the first point double at each step, over and over again."""
+    """Rows of 1000 points, in each of which the x coordinate doubles from one point to the next."""
     return [(math.ldexp(1., i % 1000 - 500), float(i // 1000)) for i in range(n)]
 
 
@@ -286,7 +286,7 @@ class Programs:
     def faults(self, attack, larger):
         """@return what is wrong, and the seconds of each size."""
         n = attack.size * larger
-        for attempt in range(TRIES):  # a machine is slow now and then, an algorithm every time
+        for attempt in range(TRIES):  # only a slow algorithm is slow every time
             seconds = []
             for size in (n, 2 * n, 4 * n):
                 code, taken, said = self.run(attack, size)

@@ -43,7 +43,7 @@ class Runner:
         self.options = {name: options_of(program) for name, program in self.programs.items()}
         with open(programs[0], "rb") as file:
             content = file.read()
-        # Instrumentation takes memory and time as well.
+        # Instrumentation also needs memory and time.
         self.is_watched = b"__asan_init" in content or b"__gcov_exit" in content
         self.obstacle = self.let_nobody_in() if os.geteuid() == 0 else None
 

@@ -2,10 +2,10 @@
 """system_calls.py PH_BARCODE PH_SEGMENT [STEP]: makes each system call fail, each time it is made.
 
 strace counts the calls of a run. The script then runs the program again and again: the first call
-fails, then the second, and so on, once with each error that the call may have. Whatever fails, the
-run ends in time with a documented exit code. With 0, the outputs equal the outputs of a run without
-failures. Otherwise there is one error line, each output is complete or absent, and nothing else is
-left in the folder. STEP: only every STEP-th call."""
+fails, then the second, and so on, once with each error that the call may report. Whatever fails,
+the run ends in time with a documented exit code. With 0, the outputs equal the outputs of a run
+without failures. Otherwise there is one error line, each output is complete or absent, and nothing
+else is left in the folder. STEP: only every STEP-th call."""
 import collections
 import os
 import pathlib
@@ -32,8 +32,9 @@ ERRORS = {
     "readlink": ("EACCES", "EINVAL"), "sched_getaffinity": ("EINVAL",), "mkdir": ("EACCES",),
     "getdents64": ("EIO",), "statfs": ("EIO",), "statx": ("ENOSYS",), "rt_sigaction": ("EINVAL",),
     "clock_gettime": ("EINVAL",), "clock_nanosleep": ("EINVAL", "EINTR"), "sigaltstack": ("EPERM",)}
-# If one of these fails, no program starts, or the C library ends it. A failing brk returns the old
-# end of the heap instead of an error, which strace cannot imitate; mmap is tested in its place.
+# If one of these calls fails, the program does not start, or the C library ends it. A failing brk
+# returns the old end of the heap instead of an error, which strace cannot imitate; mmap is tested
+# in its place.
 OF_LIBC = {"brk", "execve", "arch_prctl", "set_tid_address", "set_robust_list", "rseq", "futex", "exit_group", "exit",
            "rt_sigprocmask", "rt_sigreturn", "sched_yield", "gettid", "getpid", "tgkill", "uname", "getuid",
            "geteuid", "getgid", "getegid", "umask", "restart_syscall"}

@@ -1,7 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Plants faults (mutants.py) in a copy of libph, one at a time, and demands that the tests find
-each of them.
+"""Plants faults (mutants.py) in a copy of libph, one at a time. The tests must find each fault.
 
 plant_mutants.py [--jobs N] [--check] [NAME...]     (names of mutants; default: all)
 
@@ -56,8 +55,8 @@ def flags_of(package):
 
 
 def write_build(tree, programs):
-    """Writes a build file with only relative names, because a copy of the folder must be up to date
-    as well."""
+    """Writes a build file with only relative names, because the build must also be up to date in a
+    copy of the folder."""
     includes, libraries = [], []
     for package in ("eigen3", "fmt", "gtest_main"):
         found = flags_of(package)
@@ -121,7 +120,7 @@ def try_mutant(base, mutant, anchors):
         return f"NOT PLANTED: {why}"
     tree = Path(tempfile.mkdtemp(prefix="mutant-", dir=base.parent))
     try:
-        # Keeps the times of files: only the mutant is rebuilt.
+        # The copies keep the times of the files. As a result, only the mutated file is rebuilt.
         shutil.copytree(base, tree, dirs_exist_ok=True)
         (tree / file).write_text(text)
         if (result := build(tree, [mutant.test], 1)).returncode != 0:

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Plants faults (program_mutants.py) in a copy of the repository, one at a time, builds the
-programs, and demands that the tests of programs, readers and the segmentation find each of them.
+"""Plants faults (program_mutants.py) in a copy of the repository, one at a time. Each time, builds
+the programs. The tests of programs, readers and the segmentation must find each fault.
 
 plant_program_mutants.py [--jobs N] [NAME...]     (names of mutants; default: all)
 

@@ -4,9 +4,10 @@
 abi.py --library FILE.so.
 
 `abidiff` compares the library with ph_c.abi, which `abidw` wrote for an older library. Functions
-and enumerators may be added. ph_options may grow at its end, because ph_options_init tells how much
-of it the caller knows. Any other change needs a new PH_ABI_VERSION and a new ph_c.abi, which
-`abi.py --library FILE.so --write` writes; `ctest -R packages.abi -V` shows the name of the file.
+and enumerators may be added. ph_options may grow at its end, because its member `size` tells the
+library which members the caller knows. Any other change needs a new PH_ABI_VERSION and a new
+ph_c.abi, which `abi.py --library FILE.so --write` writes; `ctest -R packages.abi -V` shows the name
+of the file.
 
 --plant changes ph_c.abi, as if the older library had been different. It requires that changes that
 break programs are found and that other changes pass.

@@ -26,7 +26,7 @@ FINDS = {"Eigen3": "libeigen3-dev", "fmt": "libfmt-dev", "ZLIB": "zlib1g-dev", "
          "PCL": "libpcl-dev", "GTest": "libgtest-dev", "Python3": "python3-dev", "Threads": None,
          "CGAL": "libcgal-dev",
          "benchmark": None, "MPI": None, "CUDAToolkit": None}  # turned off in debian/rules
-# Components that are in no package; for example, each cluster has its own MPI.
+# Components that are in no package. One of them is mpi, because each cluster has its own MPI.
 OF_NO_PACKAGE = {"licence", "mpi"}
 # Folders whose targets belong to no package.
 NOT_PACKAGED = {"bench", "violations", "build", "install", "node_modules"}

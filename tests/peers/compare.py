@@ -74,7 +74,8 @@ def gudhi_bars(case):
         for vertices, value in case["simplices"]:
             tree.insert([int(v) for v in vertices], value)
         top = tree.dimension()
-    # The highest dimension of GUDHI's complex may be cut off: it is computed, and then left out.
+    # By default, GUDHI leaves out the highest dimension of a complex. Here it is computed. Bars
+    # above `top` are then removed, because the simplices that end them are cut off.
     pairs = tree.persistence(homology_coeff_field=field, min_persistence=0,
                              persistence_dim_max=True)
     return normal((d, b, e) for d, (b, e) in pairs if d <= top)

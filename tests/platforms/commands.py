@@ -30,8 +30,9 @@ class Command:
     # Inputs other than the files of examples/data: maps names to bytes.
     inputs: dict = dataclasses.field(default_factory=dict)
     may_refuse: bool = False  # with exit code 64, if the complex lacks what is requested
-    # True if values come from exp, log, pow, hypot or sin of the C library. Their last bits depend
-    # on the processor: glibc's results differ on a processor without fused multiply-add.
+    # True if values are computed with exp, log, pow, hypot or sin of the C library. The last bits
+    # of these values depend on the processor: glibc's results differ on a processor without fused
+    # multiply-add.
     of_library: bool = False
 
 

@@ -4,11 +4,11 @@
 
 same_outputs.py [--every N] [--seconds S] BUILD OTHER [EMULATOR…] runs the commands of commands.py,
 or every Nth of them. It compares exit codes, standard output, standard error and each written file,
-except for times and memory. EMULATOR runs the programs of OTHER. Numbers from functions of the C
-library may differ by 1e-13 of their size, or by 1e-100; the number of such outputs is printed. If
-OTHER is built without CGAL, as for other platforms, commands with alpha complexes are left out and
-counted. So are commands that OTHER has not completed after S seconds. The last line has the counts.
-The exit code is 0 if nothing else differs.
+except for times and memory. EMULATOR runs the programs of OTHER. Numbers computed with functions of
+the C library may differ by 1e-13 of their size, or by 1e-100; the number of such outputs is
+printed. If OTHER is built without CGAL, as for other platforms, commands with alpha complexes are
+left out and counted. So are commands that OTHER has not completed after S seconds. The last line
+has the counts. The exit code is 0 if nothing else differs.
 """
 import argparse
 import itertools
@@ -22,8 +22,8 @@ from pathlib import Path
 
 from commands import DATA, commands
 
-# Properties of a run instead of its result: times, and memory, which a forecast measures on a part
-# of the input.
+# Output that describes the run instead of its result: times, and the memory, which a forecast
+# measures on a part of the input.
 MEASURED = re.compile(rb'"timings": \{[^}]*\}|"(?:seconds|time|peak_memory)": [-+.e\d]+|; [.\d]+ m?s$|'
                       rb'^memory  .*$', re.M)
 TRIANGULATED = {"alpha", "delaunay-cech", "delaunay-rips"}

@@ -60,7 +60,7 @@ class Representatives:
         return self.filtration[cell][0]
 
     def is_boundary(self, chain, until):
-        """True if the chain is the boundary of cells for whose values `until` holds."""
+        """True if the chain is the boundary of a chain of cells for whose values `until` holds."""
         chain = {self.columns.place[c]: a for c, a in chain.items()}
         while chain:
             low = max(chain)

@@ -96,7 +96,7 @@ def table(rng, rows, separator=None):
 
 
 def zipped(rng, name, content):
-    """Compresses a file now and then."""
+    """Compresses some of the files, chosen at random."""
     return (name + ".gz", gzip.compress(content)) if rng.random() < 0.1 else (name, content)
 
 

@@ -121,7 +121,7 @@ class Job:
             if way == "stop":
                 time.sleep(rng.uniform(0, 0.05))
                 os.kill(process.pid, signal.SIGCONT)
-        said = process.stderr.read()  # the pipe can hold what it prints, which is little
+        said = process.stderr.read()  # the messages are short enough to fit into the pipe
         process.stderr.close()
         code = process.wait()
         self.check(way, command, code, number, said, old)

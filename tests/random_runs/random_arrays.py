@@ -27,7 +27,8 @@ NO_NUMBERS = ["c8", "c16", "U4", "S4", "M8[s]", "m8[s]", "V4"]
 
 
 class HasArray:
-    """An array in the form that other libraries use."""
+    """An object that is not a NumPy array but converts to one, as the arrays of other libraries
+    do."""
 
     def __init__(self, array):
         self.array = array

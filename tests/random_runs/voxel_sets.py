@@ -12,8 +12,8 @@ class Unfit(Exception):
 
 @dataclass
 class Picture:
-    """An image as it is filtered. `entry` is the value at which each voxel enters; math.inf if it
-    never does."""
+    """A filtered image. `entry` is the value at which each voxel enters; math.inf if the voxel
+    never enters."""
     shape: tuple
     entry: dict
     cells: bool  # true if voxels are top-dimensional cubes

@@ -2,7 +2,7 @@
 """kills.py PH_BARCODE [KILLS [SEED]]: kills jobs that compute or join parts at random times.
 
 Whatever was killed, each output is either absent or complete. The same commands, repeated with
---resume, make the same bytes as an undisturbed run. No process is left over."""
+--resume, make the same bytes as an undisturbed run. No process is left running."""
 import os
 import pathlib
 import random

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""mpi.py PH_BARCODE PH_BARCODE_MPI MPIRUN [KILLS [SEED]]: tests an image, or points, on 1 to 8
-ranks of an MPI.
+"""mpi.py PH_BARCODE PH_BARCODE_MPI MPIRUN [KILLS [SEED]]: tests images and points on 1 to 8 ranks
+of an MPI implementation.
 
 The ranks write the same bytes as one process. If a rank is killed at a random time, all other ranks
 end within seconds, with an exit code other than 0 and without an output; the same command with
@@ -132,8 +132,8 @@ def check_clouds(mpi, one_process):
 
 
 def check_resumed_clouds(mpi, one_process):
-    """A part that was kept is used again. A part that is damaged or belongs to other points is
-    computed again."""
+    """A part that was kept is reused. A part that is damaged or belongs to other points is computed
+    again."""
     points(mpi.folder / "points.csv", 300, 3)
     command = ["points.csv", *H0, "-o", "resumed.csv"]
     for part in (1, 2, 3):
@@ -282,8 +282,8 @@ def check_kills(mpi, one_process, kills, seed):
         try:
             process.communicate(timeout=2 * MOST_SECONDS)
         except subprocess.TimeoutExpired:
-            # In Open MPI 4.1.4, mpirun may hang if a rank dies during its start: in one of a
-            # hundred runs, it waits for its own lock (PMIx) after all ranks have ended.
+            # In Open MPI 4.1.4, mpirun may hang if a rank dies during its start: in about one run
+            # in a hundred, it waits for its own lock (PMIx) after all ranks have ended.
             assert "openmpi" in mpi.mpirun and not mpi.ranks("killed.csv"), "ranks hang"
             process.kill()
             process.communicate()

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: MIT
 """slurm.py PH_BARCODE: tests the SLURM commands of docs/how-to/scale-out.md unchanged, on a SLURM
-of one machine that this test starts and ends. Exit code 77, with the reason, if there is no SLURM.
+cluster of one machine, which this test starts and ends. Exit code 77, with the reason, if SLURM is
+not available.
 
-The scripts of the page run as they are: an array of jobs, and a job that waits for the array. Then
-one job of the array is run again. A second array, in which one job dies, reuses the existing parts.
+The scripts of the page run unchanged: a job array, and a job that waits for the array. Then one job
+of the array runs again. A second array, in which one job dies, reuses the existing parts.
 """
 import os
 import pathlib
@@ -66,7 +67,7 @@ def free_ports(count):
 
 
 class Slurm:
-    """A SLURM with a controller and one node, in a separate folder."""
+    """A SLURM cluster with a controller and one node, in a separate folder."""
 
     def __init__(self, folder):
         self.folder, self.daemons = folder, []

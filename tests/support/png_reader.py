@@ -43,7 +43,7 @@ def unfiltered(kind, line, above, step):
 
 
 def rows_of(data):
-    """@return width, height, bits and type of colour, and the bytes of each row."""
+    """@return the width, height, bit depth and colour type, and the bytes of each row."""
     parts = chunks(data)
     width, height, bits, colour, _, _, interlaced = struct.unpack(">IIBBBBB", dict(parts)[b"IHDR"])
     assert not interlaced

@@ -22,7 +22,7 @@ def _entry(block, ray):
 
 
 def room(width=240, height=180, seed=1, noise=0.0005):
-    """The bytes of the PCD file. The noise of depth grows with the square of the depth."""
+    """The bytes of the PCD file. The depth noise grows with the square of the depth."""
     rng, focal, c = random.Random(seed), 0.53 * width, math.sqrt(0.5)
     records = []
     for v in range(height):

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""--complex alpha: compares bars with known lengths and with GUDHI; tests weights and hidden
-points, surfaces as files, refused inputs, and the message of a build without CGAL."""
+"""--complex alpha: compares bars with known values and with GUDHI. Also tests weights, hidden
+points, surface files, refused inputs, and the message of a build without CGAL."""
 import json
 import math
 import os
@@ -46,8 +46,8 @@ def text(table):
 
 
 def read_ply(data):
-    """@return the coordinates of the vertices, the numbers of their points, the triangles, and
-    their marks."""
+    """@return the coordinates of the vertices, the number of the input point at each vertex, the
+    triangles, and the marks of the triangles."""
     end = data.index(b"end_header\n") + len(b"end_header\n")
     lines = data[:end].decode().splitlines()
     assert lines[:2] == ["ply", "format binary_little_endian 1.0"], lines
@@ -113,11 +113,11 @@ class Alpha(ProgramTest):
         self.write("triangle.txt", f"0 0\n2 0\n1 {math.sqrt(3)!r}\n")
         found = self.bars("triangle.txt", "--complex", "alpha")[-1]
         self.assertAlmostEqual(found[2], 2 / math.sqrt(3), places=15)
-        # For Delaunay-Rips, any two balls of the triangle meet at radius 1, up to the last digit of
-        # the longest side.
+        # In the Delaunay-Rips complex, the balls of every two corners meet at radius 1, up to
+        # rounding of the side lengths in the last digit.
         self.assertFalse([bar for bar in self.bars("triangle.txt", "--complex", "delaunay-rips")
                           if bar[0] == 1 and bar[2] - bar[1] > 1e-15])
-        # The threshold cuts off later deaths. --max-dim excludes higher dimensions.
+        # --threshold cuts off later deaths. --max-dim leaves out bars of higher dimensions.
         self.assertEqual(self.bars("unit.txt", "--complex", "alpha", "--threshold", "0.6")[-1],
                          (1, 0.5, math.inf))
         self.assertEqual(self.bars("unit.txt", "--complex", "alpha", "--max-dim", "0"), components)
@@ -158,15 +158,15 @@ class Alpha(ProgramTest):
         document = json.loads(self.read("bars.json"))
         self.assertEqual((document["complex"], document["vertex_weights"], document["alpha"]),
                          ("alpha", "squared radii of balls, from a file", {"squared": True, "hidden": [2]}))
-        # The properties of the complex are kept when the bars are written again.
+        # When the program rewrites the bars, it keeps the properties of the complex.
         self.expect(0, "bars.json", "-o", "again.json", "--quiet")
         self.assertEqual(json.loads(self.read("again.json"))["alpha"], document["alpha"])
 
     def test_period(self):
         self.write("one.txt", "0.5 0.25 0\n")
         one = ["one.txt", "--complex", "alpha", "--alpha-values", "squared"]
-        # One point with a period in three axes gives a cubic lattice: three edges, three squares
-        # and one cube.
+        # A point on three periodic axes stands for a cubic lattice. Per point, the lattice has
+        # three edges, three squares and one cube.
         self.assertEqual(self.bars(*one, "--period", "2"),
                          [(0, 0, math.inf), *[(1, 1, math.inf)] * 3, *[(2, 2, math.inf)] * 3, (3, 3, math.inf)])
         self.assertEqual(self.bars(*one, "--period", "2,0,4"),

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Many points in special position give right answers in near-linear time."""
+"""Tests that many points in special position give correct bars in near-linear time."""
 import collections
 import json
 import os
@@ -58,7 +58,8 @@ class Degenerate(ProgramTest):
         line = [(0.5 * i, 0.25 * i, -0.5 * i) for i in range(n)]
         self.assertEqual(self.counts(line, "--max-dim", "0"),
                          {"0,0,0.75": n - 1, "0,0,inf": 1})
-        # The points are nested pairs of clusters, whose distance is large compared to their size.
+        # The points form nested pairs of clusters. The distance between the two clusters of a pair
+        # is large compared to their sizes.
         halves = [(sum(4.0 ** k for k in range(17) if i >> k & 1),) for i in range(2 ** 17)]
         bars = self.counts(halves, "--max-dim", "0")
         self.assertEqual(sum(bars.values()), 2 ** 17)
@@ -91,7 +92,7 @@ class Degenerate(ProgramTest):
                           "1,1,1.4142135623730951": (side - 1) ** 2})
 
     def test_spreads(self):
-        for unit in (2.0 ** -1000, 2.0 ** 1000, 5e-324):  # the multiples of these are exact
+        for unit in (2.0 ** -1000, 2.0 ** 1000, 5e-324):  # i * unit is exact
             with self.subTest(unit=unit):
                 points = [(unit * i, 0.0) for i in range(100000)]
                 self.assertEqual(self.counts(points, "--threshold", repr(unit)),

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Tests the formats that ph-barcode reads, and the files that it writes as other programs read
-them."""
+"""Tests that ph-barcode reads the formats of other programs, and that other programs can read the
+files that it writes."""
 import gzip
 import json
 import os
@@ -59,7 +59,7 @@ class Formats(ProgramTest):
         self.assertEqual(self.bars("b.dipha", content), "dim,birth,death\n0,0,inf\n0,0.5,2\n")
 
     def test_periodic_axes_come_from_the_file(self):
-        # The image is a ridge along both axes of a torus, whose four classes never die.
+        # With two periodic axes, the image is a torus, whose four classes never die.
         values = "\n0 1 1\n1 1 1\n1 1 1\n"
         torus = self.bars("t.perseus", "2\n-3 -3" + values)
         self.assertEqual(torus.count("inf"), 4)

@@ -12,7 +12,7 @@ from program import ProgramTest  # noqa: E402
 
 def components(pairs):
     """Deaths of H0 for the distances {(i, j): d}, by Kruskal's algorithm. Vertices are numbered
-    from 0; a distance of inf joins nothing."""
+    from 0. Two vertices at distance inf are never joined."""
     parent = {v: v for pair in pairs for v in pair}
 
     def root(v):
@@ -42,7 +42,7 @@ def flat(rows):
 
 class GuessTest(ProgramTest):
     def h0(self, *arguments, note="", silent=()):
-        """Deaths of H0 according to the program. Its stderr must have the note, and none of the
+        """Deaths of H0 according to the program. Its stderr must contain the note and none of the
         words in `silent`."""
         run = self.expect(0, *arguments, "--max-dim", "0")
         self.assertRegex(run.stderr, note or "^")

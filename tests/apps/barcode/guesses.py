@@ -12,7 +12,7 @@ from program import files, main  # noqa: E402
 
 
 def correlations(rng, n):
-    """The matrix of correlations of n random walks."""
+    """The correlation matrix of n random walks."""
     series = [[rng.gauss(0, 1) for _ in range(12)] for _ in range(n)]
     for row in series:
         mean = sum(row) / len(row)

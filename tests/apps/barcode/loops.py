@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""`loops` in the JSON of ph-barcode: names of vertices, the user's numbering, options."""
+"""Tests `loops` in ph-barcode's JSON: vertex names, the user's numbering, and options."""
 import json
 import math
 import os
@@ -87,7 +87,7 @@ class Loops(ProgramTest):
         self.write("gaps.txt", "\n".join(lines) + "\n")
         (bar,) = self.loops("gaps.txt", "--nan", "drop")
         self.assertEqual(bar["loops"][0]["vertices"], [1, 2, 3, 5, 6, 7, 8, 9, 10, 11, 12, 13])
-        # For a subsample, the vertices are numbers of all points.
+        # In a subsample, each vertex keeps its number among all points.
         points = ring(40)
         self.write("many.txt", text(points))
         (bar,) = self.loops("many.txt", "--subsample", "10")
@@ -98,7 +98,7 @@ class Loops(ProgramTest):
         self.assertAlmostEqual(
             loop["length"],
             sum(math.dist(points[a], points[b]) for a, b in zip(walk, walk[1:])))
-        # The numbers also count the rows with NaN, which are left out.
+        # The numbering also counts the rows with NaN, although their points are left out.
         lines = text(points).splitlines()
         self.write("both.txt", "\n".join(["nan nan"] * 5 + lines) + "\n")
         (bar,) = self.loops("both.txt", "--subsample", "10", "--nan", "drop")
@@ -109,8 +109,8 @@ class Loops(ProgramTest):
             self.assertLess(max(bar["loops"][0]["vertices"]), 80)
 
     def test_noise_does_not_lengthen_the_loop(self):
-        """In a thick ring, the representative has detours: the loop must equal the result of a
-        separate search."""
+        """In a thick ring, the representative has detours. The loop must nevertheless equal the
+        shortest one, which a separate search finds."""
         source = random.Random(3)
         points = [(r * math.cos(a), r * math.sin(a)) for r, a in
                   ((source.uniform(1, 1.6), source.uniform(0, 2 * math.pi)) for _ in range(150))]

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Voxels left out by a mask never enter: tests random images with a mask in each format that
-supports one.
+supports masks.
 
 The script writes files; oracle.py computes the expected barcodes from the numbers and never sees a
 file. For more images than in the suite: masks.py PROGRAM --images 20000

@@ -237,7 +237,7 @@ class Options(ProgramTest):
 
     def test_dtm(self):
         self.write("line.txt", "0\n1\n9\n")
-        # A point counts as one of its own two neighbours.
+        # Each point counts as one of its own two nearest neighbours.
         f = [math.sqrt(0.5), math.sqrt(0.5), math.sqrt(32)]
         run = self.expect(0, "line.txt", "--dtm", "2", "--output-format", "json", "--check")
         result = json.loads(run.stdout)

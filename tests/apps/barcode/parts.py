@@ -43,8 +43,8 @@ class Parts(PartsTest):
         return self.write(name, files.array(shape, values, "<f4"))
 
     def join(self, rng, names):
-        """Joins random groups of neighbouring parts until few are left, and returns these in random
-        order."""
+        """Joins random groups of neighbouring parts until few parts are left. @return the remaining
+        parts in random order."""
         names = list(names)
         while len(names) > 1 and rng.random() < 0.6:
             i = rng.randrange(len(names) - 1)

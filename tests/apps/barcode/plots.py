@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Tests plots as PNG, which must look the same as the SVG: plots.py PH-BARCODE"""
+"""Tests plots in PNG format, which must look the same as in SVG: plots.py PH-BARCODE"""
 import os
 import random
 import shutil
@@ -75,8 +75,8 @@ class Png(ProgramTest):
 
     @unittest.skipUnless(shutil.which("rsvg-convert"), "rsvg-convert is not installed")
     def test_it_is_the_svg(self):
-        """Bars, points and curves of the PNG are at the places where another program draws them
-        from the SVG."""
+        """Bars, points and curves are at the same places in the PNG file and in a picture that
+        another program renders from the SVG file."""
         number = random.Random(1).random
         self.write("points.txt", "".join(f"{number()} {number()}\n" for _ in range(150)))
         for kind in KINDS:

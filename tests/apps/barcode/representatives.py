@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""--representatives: checks each representative against the definition of a cycle or cocycle.
-Representatives that the definition determines up to a factor and the order of cells are also
-compared with files.
+"""--representatives: checks each representative against the definition of a cycle or cocycle. Some
+representatives are determined by the definition, up to a factor and the order of cells. These
+representatives are also compared with stored files.
 
-representatives.py PROGRAM --update writes these files anew.
+representatives.py PROGRAM --update rewrites these files.
 
 """
 import itertools
@@ -206,8 +206,8 @@ class Representatives(ProgramTest):
         self.assertEqual(len(json.loads(self.read("out.json"))["bars"][4]["representative"]), 4)
 
     def test_threshold_cuts_cocycles(self):
-        # The threshold cuts off both triangles of a strip, and with the second one its new vertex
-        # and edges.
+        # The threshold cuts off both triangles of a strip, and also the vertex and the edges that
+        # only the second triangle has.
         self.write("strip.txt", "0 : 0\n1 : 0\n2 : 0\n3 : 5\n0 1 : 1\n1 2 : 1\n0 2 : 2\n"
                    "1 3 : 5\n2 3 : 5\n0 1 2 : 6\n1 2 3 : 5\n")
         bars = self.bars("strip.txt", "--format", "simplices", "--threshold", "4",

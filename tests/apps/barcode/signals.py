@@ -45,8 +45,8 @@ class Signals(ProgramTest):
         return run.returncode, seconds
 
     def expect_end(self, start, delay, code, *numbers):
-        """Sends signals to a run that `start` returns, which must not have ended before.
-        @param delay seconds before the signals. @param code the expected exit code."""
+        """Sends signals to a run that `start` returned and that must not have ended yet.
+        @param delay seconds to wait before the signals. @param code the expected exit code."""
         for _ in range(TRIES):
             run = start()
             time.sleep(delay)
@@ -105,7 +105,7 @@ class Signals(ProgramTest):
 
 
 class RandomMoments(ProgramTest):
-    """A short run with a large result is interrupted at any moment: while it reads, computes,
+    """A short run with a large result is interrupted at random moments: while it reads, computes,
     writes, or renames the file."""
     INTERRUPTS = 60  # about one signal in three arrives while the run reads and computes
     KILLS = 120
@@ -116,7 +116,8 @@ class RandomMoments(ProgramTest):
         random.seed(4)
         self.write("picture.pgm", b"P5 300 300 255\n" + random.randbytes(90000))
         times = []
-        # The first run takes longer, and a delay drawn from its time would mostly be too late.
+        # The first run takes longer than the others. A random delay up to its duration would mostly
+        # end after a later run has ended.
         for _ in range(5):
             start = time.monotonic()
             self.expect(0, *self.ARGUMENTS)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Images larger than the memory limit: the bars stay the same and the memory within the limit, for
-any height of the slabs."""
+"""Tests images larger than the memory limit. For any slab height, the bars stay the same, and the
+memory use stays within the limit."""
 import array
 import gzip
 import math
@@ -20,8 +20,8 @@ BESIDE = 32  # MiB that code, libraries and small allocations may take in additi
 
 
 def write_waves(path):
-    """Writes an image of float32 (13 MiB) with few critical cells: its rows are shifted sections of
-    one periodic row, raised in waves."""
+    """Writes a float32 image (13 MiB) with few critical cells: its rows are shifted sections of one
+    periodic row, raised in waves."""
     depth, height, width = EXTENTS
     period = 97
     wave = [math.sin(2 * math.pi * i / period) + 0.4 * math.sin(2 * math.pi * 5 * i / period) for i in range(period)]
@@ -80,8 +80,8 @@ class Slabs(ProgramTest):
             self.assertLess(float(least) * UNITS[unit], peak, said)
 
     def test_representatives_give_way(self):
-        """Representatives need all layers at once. The run suggests leaving them out, and then it
-        fits."""
+        """Representatives need all layers at once. The run suggests leaving out the
+        representatives. Without them, it fits into the limit."""
         arguments = ("waves.raw", *self.raw, "--memory-limit", "24MiB", "--output-format", "json")
         message = self.expect(75, *arguments, "--representatives", "cycles").stderr
         changes = re.search("what may fit: (--representatives none[^(]*) ", message)

@@ -55,7 +55,7 @@ class Stored(ProgramTest):
         self.write("rows.csv", "0,0,1\n1,0.5,2\n")
         self.assertIn("points in R^3", self.expect(0, "rows.csv").stderr)
         self.assertNotIn("a barcode", self.run_program("bars.npy").stderr)
-        # With an explicit format, a file is read as the user says.
+        # With --format, a file is read in the format that the user states.
         self.assertNotIn("a barcode", self.run_program("bars.csv", "--format", "points").stderr)
 
     def test_converted(self):

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """json_schemas.py PH_BARCODE PH_SEGMENT PH_VECTORISE PH_DISTANCE: the JSON of the programs conforms
-to docs/reference/schemas, and the schemas describe each member that the programs write. The test
-needs python3-jsonschema; without it, it is skipped."""
+to docs/reference/schemas, and the schemas describe each member that the programs write. Without
+python3-jsonschema, the test is skipped."""
 import copy
 import json
 import subprocess
@@ -175,7 +175,8 @@ def test_distances(t):
 
 
 def test_that_faults_are_seen(t):
-    """Spoiled documents are refused: a schema that accepts everything would not test anything."""
+    """Corrupted documents must be refused, because a schema that accepts everything would test
+    nothing."""
     printed = t.run(t.barcode, "square.csv", "--representatives", "cycles", "--output-format", "json", "--quiet").stdout
     t.run(t.vectorise, DATA / "bars", "--kind", "image", "--fit", "fit.json", "-o", "x.npy", "--quiet")
     sliced = t.run(t.distance, DATA / "bars", "--distance", "sliced", "--output-format", "json", "--quiet").stdout

@@ -51,8 +51,9 @@ class Row:
     arguments: the option and its value; `@input` stands for the first file of the input.
     variant: the variant of the input on which the option has an effect, such as "nan".
     beside: arguments of both runs.
-    sign: a pattern that standard error matches only with the option, in place of a changed result;
-    {} in it stands for the choice. lost: a pattern that it matches only without the option.
+    sign: for an option that does not change the result, a pattern that standard error matches only
+    with the option; {} stands for the choice. lost: a pattern that standard error matches only
+    without the option.
     default: other arguments, which change the result, if `arguments` only state the default.
     unfit: a pattern for the message of a run that fails (64, 65) because the input does not fit
     this option or another one; the name of the option is always accepted.
@@ -95,7 +96,7 @@ def options_of(program):
 def result_of(content):
     """The content without the parts that differ from run to run. JSON may consist of one document
     per line, as for a stream."""
-    if not content.startswith(b"{"):  # lines of numbers are JSON as well, but the same in each run
+    if not content.startswith(b"{"):  # numbers are valid JSON too, but the same in each run
         return re.sub(MEMORY, b"", content) if b"memory " in content else content
     try:
         values = [json.loads(content)]

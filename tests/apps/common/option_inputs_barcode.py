@@ -272,7 +272,7 @@ def inputs(Input, program):
         rows={"--construction": (("--construction", "cells"), {})})
     add("DIPHA image", ["i.dipha"], {"i.dipha": files.dipha_image((6, 5), floats)}, 4,
         nan=files.dipha_image((6, 5), one_nan))
-    # A triangle that is filled late, beside a triangle that is never filled.
+    # A triangle that is filled late, next to a triangle that is never filled.
     simplices = (b"0 : 0\n1 : 0.25\n2 : 0\n0 1 : 1\n1 2 : 2\n0 2 : 3\n0 1 2 : 4\n3 : 0\n2 3 : 2\n4 : 0\n"
                  b"3 4 : 2.5\n2 4 : 2.75\n")
     add("simplices", ["t.simplices"], {"t.simplices": simplices}, values=[3, 1, 4, 2, 5],
@@ -335,7 +335,7 @@ def inputs(Input, program):
               "--plot-kind": (("--plot-kind", "betti"), {}), "--dims": (("--dims", "9"), {}),
               "--title": (("--title", "Loops"), {}), "--size": (("--size", "300x200"), {}),
               "--axis": (("--axis", "0.25,0.5"), {})})
-    # Options of --part: a part has no format and no picture.
+    # The options of runs with --part. Such a run writes neither other formats nor pictures.
     of_part = {option: ((option, value) if value else (option,), {}) for option, value in (
         ("--part", "2/2"), ("--output", "x.ph"), ("--field", "3"), ("--representatives", "cycles"),
         ("--loops", "none"), ("--plot-kind", "betti"), ("--title", "Loops"), ("--size", "300x200"),

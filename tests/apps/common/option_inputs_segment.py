@@ -19,7 +19,7 @@ BESIDE = RESULTS  # arguments added to both runs for options without a row
 
 
 def rows(Row, name="x"):
-    """@param name the part of output names that comes from the input; * for a stream."""
+    """@param name the name of the input, which output names contain; * for a stream."""
     results = OF_FRAMES if name == "*" else RESULTS
     plot = [*results, "--plot", f"x-{name}.svg"]
 

@@ -61,7 +61,7 @@ REPORTS = [
 ]
 
 
-SAMPLED = 97  # only one in this many of the calls that already failed in an earlier case
+SAMPLED = 97  # one in this many of the calls already tested in another case fails
 total = [0]  # number of runs
 first = [0]  # offset of the failing calls
 
@@ -125,8 +125,8 @@ def is_complete(name, content, want):
 
 
 def check(folder, case, known, wrong):
-    """Makes one call in EVERY fail, in two ways. Of the calls that this run shares with the
-    beginning of the run `known`, only one in SAMPLED of these fails. @return the sizes that the run
+    """Makes one call in EVERY fail, in two ways. Where the run begins with the same calls as the
+    run `known`, only one in SAMPLED of the selected calls fails. @return the sizes that the run
     requests."""
     program, arguments, outputs = case
     sizes, want = calls_of(folder, *case)

@@ -24,7 +24,7 @@ class Overwrites(FolderTest):
         os.mkdir(self.path("folder"))
 
     def write(self, name, content):
-        """Writes a file, and makes other names for it."""
+        """Writes a file, and creates a symbolic link and a hard link to it."""
         super().write(name, content)
         path = self.path(name)
         folder, name = os.path.split(path)
@@ -127,7 +127,7 @@ class Overwrites(FolderTest):
                            "folder/../new/*.svg"]):
             self.refused(BARCODE, "p.svg", ["p.csv"], "p.csv", "link-p.csv", *arguments)
         self.assertFalse(os.path.exists(self.path("new")))
-        # A device that keeps nothing may be named as two outputs.
+        # The same device may be named for two outputs if it keeps nothing.
         run = self.run_in_folder(BARCODE, "p.csv", "-o", "/dev/null", "--quiet")
         self.assertEqual(run.returncode, 0, run.stderr)
 
@@ -138,7 +138,7 @@ class Overwrites(FolderTest):
         self.assertTrue(self.read_bytes("p.csv").startswith(b"dim,birth,death\n"))
 
     def scene(self, *clouds):
-        """Writes the same scene as clouds, as a depth image, and as the camera of the depth
+        """Writes the same scene as clouds and as a depth image, and writes the camera of the depth
         image."""
         image = depths(36)
         for name in clouds:

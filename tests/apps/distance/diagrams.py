@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Random barcodes, and their distances by the definition, which tries all ways to pair the bars."""
+"""Random barcodes, and the distances between them by the definition: all ways to pair the bars are
+tried."""
 import csv
 import io
 import itertools
@@ -15,7 +16,7 @@ def csv_of(bars):
 
 def random_bars(seed, counts, grid=None):
     """@param counts for each dimension, the number of bars, and how many of them never die. @param
-    grid step of the numbers, or None."""
+    grid if it is not None, births and deaths are multiples of 1 / grid."""
     chance = random.Random(seed)
     bars = []
     for dim, (finite, infinite) in counts.items():
@@ -53,8 +54,8 @@ def total(costs, order):
 
 
 def distance(a, b, order=INF, ground=INF):
-    """The distance of the bars of one dimension, for few bars. `order` infinity is the bottleneck
-    distance."""
+    """The distance between two barcodes of one dimension with few bars. An infinite `order` gives
+    the bottleneck distance."""
     finite = [[bar for bar in bars if bar[1] < INF] for bars in (a, b)]
     rays = [sorted(bar[0] for bar in bars if bar[1] == INF) for bars in (a, b)]
     if len(rays[0]) != len(rays[1]):

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""ph-distance --groups: compares the loss with its definition, and p with its value over all ways
-to assign the labels."""
+"""ph-distance --groups: compares the loss with its definition, and the p-value with its exact value
+over all ways to assign the labels."""
 import itertools
 import json
 import math
@@ -11,8 +11,8 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../
 from program import ProgramTest, main  # noqa: E402
 from diagrams import INF, csv_of, rows_of  # noqa: E402
 
-# Deaths of barcodes with one bar each: the distance of two such barcodes is the difference of the
-# deaths, as long as this is small.
+# Deaths of barcodes with one bar each. The distance between two such barcodes is the difference
+# between their deaths, as long as this difference is small.
 DEATHS = [20.0, 21.5, 20.25, 23.0, 24.0, 21.0, 23.5]
 WORDS = ["low", "low", "low", "high", "high", "low", "high"]
 
@@ -68,7 +68,8 @@ class GroupsTest(ProgramTest):
         self.assertEqual(f"H1  p {test['p']}, loss {test['loss']} (99 shuffles, power 1, seed 5)", text.splitlines()[1])
         self.assertEqual([d["value"] for d in found["distances"]],
                          [abs(x - y) for x, y in itertools.combinations(DEATHS, 2)])
-        # The option --matrix does not change the result; the matrix allows anybody to recompute it.
+        # The option --matrix does not change the result. Anybody can recompute the result from the
+        # matrix.
         self.assertEqual(self.result("--shuffles", "99", "--seed", "5", "--matrix", "m.csv").stdout, text)
         self.assertEqual(float(rows_of(self.read("m.csv"))[0]["3.csv"]), 3)
 

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""ph-distance --matching: each bar is in one pair, and the cost of the pairs is the distance."""
+"""ph-distance --matching: each bar is in exactly one pair, and the cost of the pairs is the
+distance."""
 import json
 import math
 import os

@@ -42,8 +42,8 @@ class OptionsTest(ProgramTest):
                         # Such a call is refused for another reason, or has the option twice.
                         continue
                     fits = kind in kinds and aim in aims
-                    # The matching of the bottleneck distance is exact, and therefore takes no
-                    # --error.
+                    # The matching of the bottleneck distance is exact, and therefore --error is
+                    # refused.
                     fits = fits and (option[0], aim, kind) != ("--error", "matching", "bottleneck")
                     before = self.files()
                     run = self.expect(0 if fits else 64, *arguments, "--distance", kind, *option)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Tests of ph-distance: distances agree with the definitions in every format of output, matrices are
-right, and every format of input is read."""
+"""Tests of ph-distance: distances agree with the definitions in every output format, matrices are
+correct, and every input format is read."""
 import itertools
 import json
 import math

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""ph-distance: a signal during a long run ends it with the shell's code and leaves nothing
-behind."""
+"""ph-distance: a signal ends a long run with the exit code that shells use, and the run leaves
+nothing behind."""
 import os
 import signal
 import subprocess

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""ph-barcode --report: tests the data on pages of points, images and complexes, and their trees."""
+"""ph-barcode --report: tests the data and the trees on the pages of points, images and
+complexes."""
 import json
 import math
 import os
@@ -323,8 +324,8 @@ class Data(ReportTest):
         self.assertNotIn("triangles_below", report.meta["cloud"])
 
     def test_the_default_cut_is_below_what_stands_out(self):
-        # The largest ratio of consecutive lengths, of 0.009 to 0.0001, is far below the longest
-        # bar. The cut is in the next largest ratio, of 0.5 to 0.01.
+        # The largest ratio of consecutive bar lengths, 0.009 : 0.0001, belongs to bars that are far
+        # shorter than the longest bar. The cut is therefore at the next largest ratio, 0.5 : 0.01.
         self.write("p.txt", "0\n0.0001\n0.0101\n0.0191\n0.5191\n1.5191\n")
         cut = self.report("p.txt", "--max-dim", "0").meta["tree"]["cut"]
         self.assertTrue(0.01 < cut < 0.5, cut)

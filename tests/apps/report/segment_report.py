@@ -75,8 +75,8 @@ class Reports(ProgramTest):
         return [int(line) for line in self.read("l.csv").split()]
 
     def expect_answer(self, scene, *options):
-        """Checks that the page has the labels, surfaces and descriptions of the other outputs when
-        it is opened."""
+        """Checks that the page, as it is first shown, has the labels, surfaces and descriptions of
+        the other outputs."""
         own = self.labels(scene, *options, "--report", "r.html", "--surfaces", "s.csv", "--json",
                           "s.json")
         report, summary = Report(self.path("r.html")), json.loads(self.read("s.json"))

@@ -28,7 +28,7 @@ import point_clouds  # noqa: E402
 import segmentation_metrics as metrics  # noqa: E402
 from segmentation_programs import Program  # noqa: E402
 
-# One frame of each kind that pipelines based on distance get wrong: stacked, occluded, cylindrical,
+# One frame of each kind that distance-based pipelines get wrong: stacked, occluded, cylindrical,
 # complex.
 FRAMES = ("learn19", "learn27", "learn37", "test57")
 if not TEST_DATA or not all((SCENES / f"{frame}.pcd").exists() for frame in FRAMES):

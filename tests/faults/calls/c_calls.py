@@ -92,7 +92,7 @@ class Library:
         return self.said(status, [ctypes.c_void_p(value) for value in out][:min(count, 8)])
 
     def handles(self):
-        """Calls with NULL as handle, and calls for a bar beyond the last one of a handle."""
+        """Calls with NULL as the handle, and calls for a bar beyond the last bar of a handle."""
         out = ctypes.c_void_p()
         self.c.ph_rips_points(_address(POINTS), INDEX(10), INDEX(3), INDEX(3), INDEX(1), None, ctypes.byref(out))
         numbers = ctypes.c_void_p(1)

@@ -36,7 +36,7 @@ def vast(shape, dtype=float):
 
 
 class NoArray:
-    """Raises an exception when it is asked for its numbers."""
+    """Raises an exception when its numbers are requested."""
     def __array__(self, dtype=None, copy=None):
         raise RuntimeError("not today")
 

@@ -20,8 +20,8 @@ FOREIGN = re.compile(r"incompatible function arguments|pybind|std::|not iterable
 
 
 def outcome(call):
-    """The outcome of a call as text. The call runs in a child process, because this reveals a
-    crash."""
+    """The outcome of a call as text. The call runs in a child process, because a crash then does
+    not end this script."""
     reader, writer = os.pipe()
     child = os.fork()
     if child == 0:

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Rows 61 to 65: barcodes and fits, which programs write themselves, damaged or forged."""
+"""Rows 61 to 65: damaged or forged files of barcodes and fits, which normally only the programs
+write."""
 from files import dipha, npy, packed
 
 from entry import Entry, sample, with_bytes, with_change

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Rows 39 to 42: packed data with wrong lengths, decompression bombs, trailing data, endless
+"""Rows 39 to 42: compressed data with wrong lengths, decompression bombs, trailing data, endless
 lists."""
 import functools
 import struct
@@ -120,7 +120,7 @@ def png_lies():
 
 @functools.cache
 def zeros(mebibytes):
-    """A gzip file of NUL bytes, a thousandth of their size."""
+    """A gzip file of NUL bytes, which is a thousandth of the size of its content."""
     packer = zlib.compressobj(9, zlib.DEFLATED, 31)
     block = bytes(1 << 20)
     return b"".join(packer.compress(block) for _ in range(mebibytes)) + packer.flush()

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Rows 69 to 71: parts of one computation on several machines that are damaged, that hold false
-data with a matching checksum, or that belong to another computation."""
+"""Rows 69 to 71: part files of a computation that several machines share. The files are damaged,
+hold false data with a matching checksum, or belong to another computation."""
 import binascii
 import struct
 

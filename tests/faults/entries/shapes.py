@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Rows 85 to 96: valid data in extreme cases of geometry and of clouds."""
+"""Rows 85 to 96: valid data that are extreme cases of geometry or of cloud files."""
 import os
 import struct
 
@@ -90,7 +90,7 @@ def spreads():
 
 
 def pcd_files(points, width, height):
-    """The same organised cloud in each of PCD's three kinds of data."""
+    """The same organised cloud in each of PCD's three data encodings."""
     ascii_rows = text([str(c) if c == c else "nan" for c in p] for p in points).encode()
     return {"ascii": pcd_header(width=width, height=height) + ascii_rows,
             "binary": pcd_header(width=width, height=height, data="binary") + floats(points),

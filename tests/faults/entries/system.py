@@ -126,7 +126,7 @@ def to_nobody(_folder):
 
 @functools.cache
 def folder_of_locales():
-    """Compiles the locales that matter here, because a machine seldom has them."""
+    """Compiles the locales that the tests need, because few machines have them installed."""
     folder = tempfile.TemporaryDirectory()
     for locale in LOCALES.values():
         if shutil.which("localedef") is None:
@@ -173,7 +173,7 @@ def refused(row, name, *arguments, code, message, named, program=BARCODE, files=
 
 
 def squares(row, name, *arguments, program=BARCODE, files=FILE, output=SQUARE_BARS, **others):
-    """An entry in which the square must be read in spite of everything."""
+    """An entry whose input, a square, must be read correctly despite the unusual circumstances."""
     return Entry(row, name, program, arguments, 0, files=files, output=output, **others)
 
 
@@ -297,7 +297,7 @@ def names():
 def surroundings():
     for row, locale in LOCALES.items():
         inside = in_locale(locale)
-        # The names of formats and extensions contain the letter i, which has another upper case in
+        # The names of formats and extensions contain the letter i, whose upper case differs in
         # Turkish.
         yield squares(row, locale, "SQUARE.TXT", "--quiet", files={"SQUARE.TXT": SQUARE.encode()},
                       around=inside)

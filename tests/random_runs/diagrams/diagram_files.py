@@ -56,7 +56,7 @@ def random_bar(rng, style, infinite):
 
 
 def moved(rng, style, bar, far):
-    """A bar close to this one. @param far factor for the distance; None for a random distance."""
+    """A bar close to `bar`. @param far factor for the distance; None for a random distance."""
     ends = [x if math.isinf(x) or rng.random() < 0.3 else
             x + number(rng, style) * (far or rng.choice([1, 2 ** -4, 2 ** -20])) for x in bar]
     largest = LARGE if style != "vast" else 1e308

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""Distances of persistence diagrams by their definitions: each bar has a place on the diagonal, and
-one assignment covers all bars. Reads no files, and shares nothing with libph. Needs NumPy and
-SciPy.
+"""Distances between persistence diagrams by their definitions: each bar has a place on the
+diagonal, and one assignment covers all bars. Reads no files, and shares nothing with libph. Needs
+NumPy and SciPy.
 
 A diagram is a list of bars (birth, death) of one dimension. Bars of length 0 do not count."""
 import itertools
@@ -69,8 +69,8 @@ def square(pairs, alone_a, alone_b):
 
 
 def bottleneck(a, b):
-    """The bottleneck distance. It is exact, because it is one of the differences in double
-    precision."""
+    """The bottleneck distance. It is exact, because it equals one of the differences that are
+    computed in double precision."""
     if not same_numbers(a, b):
         return INF
     least = max(differences(a, b), default=0.0)

@@ -13,7 +13,7 @@ from random_runs import damaged
 
 INF = math.inf
 SMALL = 1e-307  # smaller doubles have fewer digits
-LEAST = 1e-150  # relative to the cost of all bars unmatched, both to the power of the order
+LEAST = 1e-150  # share of the cost of all bars unmatched, both to the power of the order
 
 
 def expected_of(task, a, b):
@@ -36,7 +36,7 @@ def is_known(task, value, lower, exact, alone):
     if value < lower or math.isinf(value):
         return False
     if task.distance == "bottleneck":
-        # The distance is one of the differences, to the last digit.
+        # The distance equals the cost of one of the pairs, to the last digit.
         if not lower <= exact <= value:
             return False
         return lower > task.at_most or (
@@ -133,7 +133,7 @@ def compare_matching(program, task, folder, found):
         total = largest
         if task.order < INF and largest > 0:
             total = largest * math.fsum((c / largest) ** task.order for c in all_costs) ** (1 / task.order)
-        # Powers of costs that are far below the cost of all bars unmatched underflow.
+        # If a cost is far below the cost of all bars unmatched, its power underflows.
         alone = expected_of(task, *bars)[1]
         if task.order < INF and total < alone * 1e-300 ** (1 / task.order):
             continue
@@ -152,7 +152,7 @@ def compare_tests(program, task, found):
         unit = max(map(max, square)) or 1.0
         square = [[x / unit for x in row] for row in square]
         exact = oracle.loss(square, task.labels, task.power)
-        # Such a loss is near the limits of doubles or beyond them, and is not checked.
+        # If the loss is near the limits of doubles or beyond them, it is not checked.
         is_vast = abs(math.log10(unit)) * task.power > 290
         scale = math.nan if is_vast else unit ** task.power
         doubt = (1 + task.error) ** task.power - 1 + 1e-11

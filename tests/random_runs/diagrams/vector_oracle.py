@@ -93,7 +93,7 @@ def silhouette(bars, at, power):
 
 
 def shares_of_pixels(low, high, count, centre, sigma):
-    """For each pixel, the mass of a normal distribution in it."""
+    """The mass of a normal distribution in each pixel."""
     ends = low + (high - low) * np.arange(count + 1) / count
     with np.errstate(over="ignore"):
         left, right = (ends[:-1] - centre) / sigma, (ends[1:] - centre) / sigma
@@ -139,8 +139,8 @@ def are_means(points, centres, slack):
 
 
 def widths(points, centres):
-    """For each centre, half the distance to the nearest other centre. A single centre has the mean
-    distance of the points, or 1 if that is 0."""
+    """The width of each centre: half the distance to the nearest other centre. A single centre has
+    as its width the mean distance of the points from it, or 1 if this mean is 0."""
     if len(set(points)) == 1:
         return [1.0]
     if len(centres) == 1:

@@ -76,7 +76,7 @@ def expected_refusal(task):
 # Fitted values by the definition.
 
 def around(x, width):
-    """A range around a number, wide enough that doubles in it differ."""
+    """A range around a number, wide enough to contain several doubles."""
     half = max(width / 2, abs(x) * 2 ** -40)
     return x - half, x + half
 

@@ -103,7 +103,7 @@ def expected_refusal(scene, asked):
 
 
 def may_be_too_fine(scene, asked):
-    """True if coordinates may exceed 2^52 voxels."""
+    """True if coordinates may exceed 2^52 times the edge of a voxel."""
     xyz = abs(oracle.as_floats(scene.xyz))
     top = xyz[np.isfinite(xyz)].max(initial=0)
     return top / asked.voxel_edge() >= 2.0 ** 52 - 1

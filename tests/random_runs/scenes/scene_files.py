@@ -135,8 +135,8 @@ def npy(rng, scene):
 
 
 def text(rng, scene, form):
-    """A text file with x y z on each line; in csv below their names, in pts below the number of
-    points."""
+    """A text file with x y z on each line. In csv, a line of names comes first; in pts, the number
+    of points."""
     table, names = [scene.xyz[:, k] for k in range(3)], list("xyz")
     if scene.colours is not None and len(scene.xyz) > 0:
         # In pts, an intensity is between the coordinates and the colours.

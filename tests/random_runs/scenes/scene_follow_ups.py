@@ -129,14 +129,14 @@ def stored_tree(rng, np_rng, program, check, tree, source, names):
     scenes.other_cut(rng, asked, check.scene)
     program.must([["t.tree"], *cut_options(asked), ["--labels", "second.npy"]])
     if check.json["plane"]["found"] and asked.method == "surface":
-        return  # the tree keeps the walls and bottoms of vessels of the first cut
+        return  # the tree keeps the vessel walls and bottoms that the first cut found
     program.must([*source, *check.file.options, *dataclasses.replace(asked).options(), ["--labels", "first.npy"]])
     require(program.output("first.npy") == program.output("second.npy"), "another cut of a stored tree: other bytes")
 
 
 def cut_options(asked):
-    """Options for the same cut. All values are given, because otherwise they would come from the
-    tree."""
+    """Options for the same cut. All values are given, because the program takes missing values from
+    the tree."""
     full = copy.copy(asked)
     full.cut, full.min_size = float(full.value()), full.least_voxels()
     if full.method != "paper":

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""Memory-mapped inputs that are larger than the limit plus all allowed additional memory: whatever
-part of the program reads them, the limit holds, and a run that does not fit fails soon."""
+"""Tests memory-mapped inputs that are larger than the memory limit plus all allowed additional
+memory. Whatever part of the program reads them, it keeps to the limit. A run that needs more memory
+fails soon."""
 import gzip
 import os
 import shutil

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""Memory runs out in more than a hundred ways: the limit holds, and the run reports it.
+"""Memory runs out in more than a hundred ways: each run keeps to its limit and reports the problem.
 
 Each memory-hungry job runs under limits from 2 MiB to 128 MiB. It either succeeds, or ends with
-exit code 75 and one line that suggests a remedy. It never takes more than the limit plus 32 MiB.
+exit code 75 and one line that suggests a remedy. It never uses more than the limit plus 32 MiB.
 """
 import os
 import random
@@ -34,8 +34,8 @@ def write_points(path, count, dim, digits=6):
 
 
 def write_image(path, extents):
-    """Writes an image in DIPHA's format, in pieces, because the memory of this process counts
-    together with the memory of its children."""
+    """Writes an image in DIPHA's format piece by piece, because the memory of this process is
+    counted together with the memory of its children."""
     count = 1
     for n in extents:
         count *= n
@@ -138,7 +138,7 @@ class Limits(UnderLimit):
 
 
 class Alternatives(UnderLimit):
-    """Tests that the alternatives which a stopped run suggests fit into the limit."""
+    """Tests that the alternatives suggested by a stopped run fit into the limit."""
     # Name, limit in MiB, least number of alternatives.
     ROWS = (("space.txt", 10, 3, "--max-dim", "2"),
             ("space.txt", 12, 3),
@@ -207,8 +207,8 @@ class System(ProgramTest):
             self.assertEqual(self.files(), ["many.txt", "square.txt"])
 
     def heap_limit_after(self, failures, soft):
-        """The limit of the heap (RLIMIT_DATA) of a batch that waits for its last input after
-        `failures` inputs have failed. @param soft the limit at its start."""
+        """The heap limit (RLIMIT_DATA) of a batch that waits for its last input after `failures`
+        inputs have failed. @param soft the soft limit with which the batch starts."""
         inputs = [f"{i}.dipha" for i in range(failures)]
         for name in inputs:
             write_image(self.path(name), (40, 40, 40))
@@ -229,7 +229,7 @@ class System(ProgramTest):
 
     def test_failures_of_a_batch_do_not_add_up(self):
         once, often = self.heap_limit_after(1, -1), self.heap_limit_after(8, -1)
-        # The limit depends on the memory in use at the start.
+        # The limits may differ a little, because each depends on the memory in use at the start.
         self.assertLess(abs(often - once), 2 * MIB)
         self.assertLess(often, 128 * MIB)
 
@@ -257,8 +257,8 @@ class System(ProgramTest):
         def enter():
             with open(os.path.join(group, "cgroup.procs"), "w") as file:
                 file.write(str(os.getpid()))
-        # In the last two runs, memory of the heap beyond the program's own budget counts towards
-        # the group's limit.
+        # In the last two runs, the program also allocates heap memory outside its own budget. This
+        # memory counts towards the limit of the control group.
         for options in (BEYOND_LIMITS,
                         ("--engine", "twist", "--max-dim", "2", "--collapse", "off",
                          "--threshold", "0.25"),

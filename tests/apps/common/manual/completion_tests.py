@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""completion_tests.py PH_BARCODE PH_SEGMENT EXTENDED_BARCODE: tests completion in shells at a
-terminal. EXTENDED_BARCODE is a ph-barcode with one more engine and one more complex."""
+"""completion_tests.py PH_BARCODE PH_SEGMENT EXTENDED_BARCODE: tests completion in shells that run
+in a terminal. EXTENDED_BARCODE is a ph-barcode with one more engine and one more complex."""
 import os
 import re
 import shutil

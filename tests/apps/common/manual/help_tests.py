@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 """help_tests.py SOURCE_FOLDER PROGRAM…: --help is short, its topics contain all options, and its
-examples run as they are."""
+examples run unchanged."""
 import collections
 import os
 import re

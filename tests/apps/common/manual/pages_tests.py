@@ -88,8 +88,8 @@ class ManPage(unittest.TestCase):
             with open(self.pages[program], encoding="utf-8") as file:
                 source = file.read().replace("\\:", "")
             for option in options_of(program).values():
-                # A plain "-" is set as a hyphen, which programs do not accept in place of a minus
-                # sign.
+                # groff prints a plain "-" as a hyphen, which programs do not accept in place of a
+                # minus sign.
                 for text in (*option.names, option.value.replace("…", "...")):
                     self.assertIn(text.replace("-", "\\-"), source)
 

@@ -44,17 +44,17 @@ class Terminal:
         return shown
 
     def run(self, line):
-        """Types a command and waits until it is done. The command prints a word that is typed in
-        a different form, which distinguishes the answer of the shell from the echo of the typed
-        text."""
+        """Types a command and waits until it is done. The command prints a word that the typed text
+        contains only in a different form. This word distinguishes the command's output from the
+        echo of the typed text."""
         self.asked += 1
         self.type(line.encode() + b"; echo an''swer" + str(self.asked).encode() + ENTER)
         return self.read_until(b"answer%d\r?\n" % self.asked)
 
     def complete(self, line, seconds):
         """What the shell prints for a TAB after a line: candidates, or the completed line.
-        @param seconds the time that the shell has to answer; after the next key, it would print
-        nothing."""
+        @param seconds how long to wait for the shell's answer before the next key, which would
+        suppress the answer."""
         self.type(line.encode() + TAB)
         time.sleep(seconds)
         self.type(KILL_LINE)
