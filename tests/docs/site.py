@@ -25,7 +25,7 @@ LOADED = {("script", "src"), ("img", "src"), ("link", "href"), ("iframe", "src")
 LEFTOVERS = {"an entity as text": r"&amp;#\w+;", "half a sentence": r"<p>\.\s[^<]{0,20}",
              "a field of a named tuple without words": r"Alias for field number \d+",
              "a link in a link": r"<a [^>]*></a>"}
-# The browser loads these links only on the reader's request.
+# The browser loads the targets of these links only if the reader follows a link.
 NOT_LOADED = {"canonical", "index", "search", "next", "prev"}
 
 

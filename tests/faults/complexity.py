@@ -31,10 +31,10 @@ SECONDS = 120
 @dataclasses.dataclass(frozen=True)
 class Attack:
     name: str
-    make: object        # make(n) returns files: name to content
+    make: object        # make(n) returns a map from file names to contents
     arguments: tuple    # the first one names the program, without "ph-"
     size: int           # n
-    power: float = 1.2  # time must not grow faster than n to this power; 1.2: n log n
+    power: float = 1.2  # time must not grow faster than n to this power; 1.2 covers n log n
     codes: tuple = (0,)
     stop: int = 0       # at this multiple of n, a limit of 64 MiB must be reached
     foresee: bool = False  # --dry-run must predict much more memory for 16 n than for n

@@ -98,7 +98,7 @@ class Entry:
     # after(folder) returns what is wrong after the run, or nothing.
     after: typing.Optional[typing.Callable] = None
     creates: tuple = ()                   # files that must exist only after the run
-    unprivileged: bool = False            # run as another user, because root is exempt
+    unprivileged: bool = False            # run as another user, because root needs no permissions
     # True if the limits for false headers apply; None if this depends on the row.
     frugal: typing.Optional[bool] = None
 
@@ -110,14 +110,14 @@ class Unavailable(Exception):
 @contextlib.contextmanager
 def plain(_folder):
     """The default of Entry.around, which changes nothing. Other context managers prepare the
-    folder, yield options of subprocess.Popen, and clean up."""
+    folder, yield options for subprocess.Popen, and clean up."""
     yield {}
 
 
 @contextlib.contextmanager
 def set_up(entry):
-    """Prepares a separate folder with the files of the entry, and yields it with options of
-    subprocess.Popen. Files beside the folder are removed with it."""
+    """Prepares a separate folder with the files of the entry. Yields the folder, and options for
+    subprocess.Popen. Files next to the folder are removed together with it."""
     with tempfile.TemporaryDirectory() as outer:
         folder = os.path.join(outer, "here")
         os.mkdir(folder)

@@ -3,7 +3,7 @@
 the corpus (with WORDS, only the entries whose name contains them) in a separate folder. It checks
 the promises about faulty inputs: the exit code, one line on stderr that names the file or the
 option, nothing on stdout, nothing written, no temporary file, an end within a second, and at most
-16 MiB and 50 ms if a header is false. PEAK is the program of peak.c."""
+16 MiB and 50 ms if a header is false. PEAK is the program built from peak.c."""
 import collections
 import os
 import pathlib

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Checks the structure of the sources: which room may include which; that no folders include each
-other in a cycle; that no file includes private headers of another folder's library; that includes
-state full paths; how large a folder may be; where tests are; and that files with fmt::join include
-its header: layering.py ROOT.
+"""Checks the structure of the sources: which room may include which other room; that no folders
+include each other in a cycle; that no file includes private headers of another folder's library;
+that includes state full paths; how large a folder may be; where tests are; and that files with
+fmt::join include its header: layering.py ROOT.
 
 Rooms are the folders of libph/src, libsegment, libreport, apps and python. A public header belongs
 to the room that HEADERS names. The exit code is 0 if there is no violation.

@@ -6,7 +6,7 @@
   the C interface equals PH_ABI_VERSION in ph.h.
 * debian/control requires what CMake searches for and what scripts/setup.sh installs.
 * debian/copyright names each copyright holder that a file states, and the holders of npm packages
-  in the page. Each of its patterns matches a file. Its licence is LICENSE.
+  in the page. Each of its patterns matches a file. Its licence text is the text of LICENSE.
 * debian/rules makes each package of debian/control from a component.
 
 --plant plants one fault after another in a copy, and requires that each is found. Exit code 77:

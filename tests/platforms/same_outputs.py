@@ -76,7 +76,7 @@ def are_close(ours, theirs):
 
 
 def lacks_alpha(command, theirs):
-    """True if the run was refused because there is no CGAL."""
+    """True if the run was refused because the program was built without CGAL."""
     return b"CGAL" in theirs["standard error"] and theirs["exit code"] != b"0" and \
         not TRIANGULATED.isdisjoint(command.words)
 

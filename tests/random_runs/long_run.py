@@ -6,8 +6,8 @@ memory, heap and file size, and by stopping and continuing them. Whatever happen
 complete output of the undisturbed run or the previous file, and the exit code tells which. Nothing
 else is left in the folder, unless SIGKILL ended the run. No run takes more memory than its limit
 plus 32 MiB. If the Python package can be imported, one process runs jobs for the same time, with
-limits, and its memory must not grow. PEAK is the program of peak.c in tests/faults. Exits with 1 at
-the first fault and prints the command; the files are kept in FOLDER."""
+limits, and its memory must not grow. PEAK is the program built from tests/faults/peak.c. Exits with
+1 at the first fault and prints the command; the files are kept in FOLDER."""
 import argparse
 import collections
 import json

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: MIT
 """random_arrays.py [--runs N] [--seed S]
 
-Passes arrays of random types, shapes and layouts to libph, and compares the bars with bars by the
-definition (oracle.py), for which the numbers are read one by one. NaN and other invalid entries
-must be refused in one line, and no array may be modified. Each run has its own seed: --seed S
---runs 1 repeats the run of seed S. Exits with 1 at the first difference."""
+Passes arrays of random types, shapes and layouts to libph, and compares the bars with the bars by
+the definition (oracle.py). For the definition, the numbers are read one by one. NaN and other
+invalid entries must be refused in one line, and no array may be modified. Each run has its own
+seed: --seed S --runs 1 repeats the run of seed S. Exits with 1 at the first difference."""
 import argparse
 import collections
 import os

@@ -201,8 +201,8 @@ def circumscribed(points):
 
 
 def periodic_alpha_filtration(points, period):
-    """The alpha complex of points in general position on a torus, cell by cell. A cell is a set of
-    images, which are pairs (point, periods), on an empty sphere, up to translation. With few
+    """The alpha complex of points in general position on a torus, cell by cell. An image is a pair
+    (point, periods). A cell is a set of images on an empty sphere, up to translation. With few
     points, it is not a simplicial complex. The images of a cell have an order that translations do
     not change."""
     dim = len(period)
@@ -266,8 +266,8 @@ def distance(metric):
 
 
 def weighted_edge(exponent):
-    """The value at which two balls meet that are born at f and g, where d is the distance of their
-    centres (Anai et al. 2019, with all values doubled)."""
+    """The value at which two balls meet (Anai et al. 2019, with all values doubled). The balls are
+    born at f and g, and d is the distance between their centres."""
     def joined(d, f, g):
         late = max(f, g)
         if exponent == "inf" or d == INF:
@@ -281,8 +281,8 @@ def weighted_edge(exponent):
 
 
 def farthest_points(count, d, n):
-    """Point 0, and then always the point that is farthest from all chosen points, the first one
-    among ties. Duplicates of chosen points are left out."""
+    """Point 0, and then repeatedly the point that is farthest from all chosen points; among ties,
+    the first point. Duplicates of chosen points are left out."""
     chosen = [0]
     while len(chosen) < count:
         far = max(range(n), key=lambda i: (min(d(i, j) for j in chosen), -i))

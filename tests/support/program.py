@@ -86,7 +86,7 @@ class ProgramTest(FolderTest):
 def main():
     global PROGRAM
     PROGRAM = os.path.abspath(sys.argv.pop(1))
-    # Tests import this file under its own name, which makes a second module. Both need to know the
-    # program.
+    # Tests import this file under its own name, which makes a second module. Both modules need to
+    # know the program.
     sys.modules["program"].PROGRAM = PROGRAM
     unittest.main(verbosity=2)

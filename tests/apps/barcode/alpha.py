@@ -149,8 +149,8 @@ class Alpha(ProgramTest):
         self.write("two.txt", "0 0 0\n3 0 0\n0.5 0 0\n")
         self.write("weights.txt", "1\n4\n-9\n")
         done = self.expect(0, "two.txt", "--complex", "alpha", "--weights", "weights.txt")
-        # The balls of radius 1 and 2 touch. The third ball lies between them and stays inside the
-        # first at all times.
+        # The balls of radius 1 and 2 touch. The centre of the third ball lies between their
+        # centres, and the third ball always stays inside the first ball.
         self.assertEqual(rows(done.stdout), [(0, -4, math.inf), (0, -1, 0)])
         self.assertIn("1 point not in the complex, hidden by points", done.stderr)
         self.assertIn("with larger weights: 2", done.stderr)

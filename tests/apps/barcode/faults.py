@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Failing descriptors, limits and streams: cases that need more setup than the corpus of
+"""Tests descriptors, limits and streams that fail. These cases need more setup than the corpus in
 tests/faults provides."""
 import json
 import os

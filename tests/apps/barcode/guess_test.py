@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Compares H0 of a file, as ph-barcode computes it, with H0 of the numbers from which the file was
-written. Also checks the notes that ph-barcode prints about the file. Shared by guesses.py and
+"""Compares the H0 that ph-barcode computes from a file with the H0 of the numbers that were written
+to the file. Also checks the notes that ph-barcode prints about the file. Shared by guesses.py and
 guesses_tables.py."""
 import math
 import os
@@ -11,8 +11,8 @@ from program import ProgramTest  # noqa: E402
 
 
 def components(pairs):
-    """Deaths of H0 for the distances {(i, j): d}, by Kruskal's algorithm. Vertices are numbered
-    from 0. Two vertices at distance inf are never joined."""
+    """The deaths in H0 for the distances {(i, j): d}, computed by Kruskal's algorithm. Vertices are
+    numbered from 0. Two vertices at distance inf are never joined."""
     parent = {v: v for pair in pairs for v in pair}
 
     def root(v):
@@ -42,8 +42,8 @@ def flat(rows):
 
 class GuessTest(ProgramTest):
     def h0(self, *arguments, note="", silent=()):
-        """Deaths of H0 according to the program. Its stderr must contain the note and none of the
-        words in `silent`."""
+        """The deaths in H0 according to the program. Its stderr must contain the note and none of
+        the words in `silent`."""
         run = self.expect(0, *arguments, "--max-dim", "0")
         self.assertRegex(run.stderr, note or "^")
         for word in silent:

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""How ph-barcode interprets a matrix or an array: it never misreads one silently. The tests
-recompute the results from the numbers before they were written to a file."""
+"""How ph-barcode interprets a matrix or an array: it never silently misreads its input. The tests
+compute the expected results from the numbers that were written to the file."""
 import math
 import os
 import random

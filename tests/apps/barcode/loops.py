@@ -121,8 +121,8 @@ class Loops(ProgramTest):
         self.assertEqual(loop["tight"], "shortest")
         u, v = bar["birth_cell"]["vertices"]
         birth = bar["birth"]
-        # Bellman-Ford from u to v along edges shorter than the bar's birth: no older bar is alive
-        # at that value.
+        # Bellman-Ford from u to v along edges shorter than the bar's birth. No older bar is alive
+        # at that value. Therefore, each path from u to v closes a loop that represents the bar.
         edges = [(math.dist(p, q), i, j) for i, p in enumerate(points)
                  for j, q in enumerate(points[:i]) if math.dist(p, q) < birth]
         distance = {u: 0.0}
@@ -164,8 +164,8 @@ class Loops(ProgramTest):
         self.assertEqual(bar["loops"], [{
             "grid": [[0, 0], [0, 2], [0, 4], [2, 4], [4, 4], [4, 2], [4, 0], [2, 0]],
             "coefficient": 1, "tight": "no"}])
-        # In the T-construction, corners are the vertices: the loop surrounds the voxel in the
-        # middle.
+        # In the T-construction, the vertices are corners of voxels, and the loop surrounds the
+        # voxel in the middle.
         (bar,) = self.loops("hole.npy", "--construction", "cells")
         for vertex in bar["loops"][0]["grid"]:
             self.assertTrue(all(x % 2 == 0 and 0 <= x <= 6 for x in vertex))

@@ -26,7 +26,7 @@ def pixels(data):
 
 
 def places(rows, colour):
-    """@return the places of the pixels with a colour, or nearly this colour."""
+    """@return the places of the pixels that have this colour, or nearly this colour."""
     alike = {found for found in set().union(*rows)
              if max(abs(a - b) for a, b in zip(found, colour)) < 60}
     return {(x, y) for y, row in enumerate(rows) if not alike.isdisjoint(row)

@@ -14,7 +14,7 @@ import program  # noqa: E402
 from program import ProgramTest, main  # noqa: E402
 
 # The documentation promises 0.2 s. A busy machine may need a little longer, and sometimes much
-# longer: runs that were too slow are repeated.
+# longer. Therefore, runs that were too slow are repeated.
 PATIENCE = 0.2 + 0.3
 TRIES = 3
 
@@ -116,8 +116,8 @@ class RandomMoments(ProgramTest):
         random.seed(4)
         self.write("picture.pgm", b"P5 300 300 255\n" + random.randbytes(90000))
         times = []
-        # The first run takes longer than the others. A random delay up to its duration would mostly
-        # end after a later run has ended.
+        # The first run takes longer than later runs, and a delay drawn from its time would often be
+        # too long. Therefore, the median of five runs is used.
         for _ in range(5):
             start = time.monotonic()
             self.expect(0, *self.ARGUMENTS)

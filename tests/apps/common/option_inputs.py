@@ -139,7 +139,7 @@ class Run:
 
 
 class Runs:
-    """Runs programs. A run with the same arguments and files is made only once."""
+    """Runs programs. A run is not repeated with the same arguments and files."""
 
     def __init__(self):
         self.known, self.lock = {}, threading.Lock()

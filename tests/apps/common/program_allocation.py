@@ -117,8 +117,8 @@ def shared(sizes, others):
 
 
 def is_complete(name, content, want):
-    """True if a file is complete. A report contains times and may lack a merge tree: only its
-    beginning and end are compared."""
+    """True if a file is complete. Of a report, only the beginning and the end are compared, because
+    it contains times and may lack a merge tree."""
     if name.endswith(".html"):
         return content[:1000] == want[:1000] and content[-1000:] == want[-1000:]
     return content == want

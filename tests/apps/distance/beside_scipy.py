@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Compares ph-distance with SciPy's assignments, on matrices with a place on the diagonal for each
-bar. Skipped without SciPy."""
+"""Compares ph-distance with the assignments that SciPy computes for cost matrices, in which each
+bar also has a place on the diagonal. Skipped without SciPy."""
 import math
 import os
 import sys

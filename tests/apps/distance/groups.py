@@ -18,8 +18,9 @@ WORDS = ["low", "low", "low", "high", "high", "low", "high"]
 
 
 def loss_of(deaths, words, power):
-    """The loss by the definition: for each group of n barcodes, the sum of the powers of the
-    distances over ordered pairs, divided by 2 n (n - 1); summed over the groups."""
+    """The loss by the definition. For each group of n barcodes, the powers of the distances are
+    summed over ordered pairs, and the sum is divided by 2 n (n - 1). The loss is the total of all
+    groups."""
     loss = 0.0
     for word in set(words):
         own = [death for death, w in zip(deaths, words) if w == word]

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""ph-barcode --report: tests the page as a file, its bars, their origin, and pages with two
-barcodes."""
+"""ph-barcode --report: tests the page as a file, its bars and the origin of the bars, and pages
+with two barcodes."""
 import hashlib
 import json
 import math

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Calls of the C interface (ph/ph.h) through ctypes, which checks nothing: NULL, wrong sizes,
-options out of range, invalid numbers."""
+"""Calls of the C interface (ph/ph.h) with NULL, wrong sizes, options out of range or invalid
+numbers. The calls go through ctypes, which checks nothing."""
 import ctypes
 import math
 

@@ -143,8 +143,8 @@ def sliced(a, b, directions):
 
 
 def loss(distances, labels, power):
-    """The loss of --groups: for each group of n barcodes, the sum of the powers of the distances
-    over ordered pairs, divided by 2 n (n - 1); summed over the groups.
+    """The loss of --groups. For each group of n barcodes, the powers of the distances are summed
+    over ordered pairs, and the sum is divided by 2 n (n - 1). The loss is the total of all groups.
     @param distances a square matrix."""
     total = 0.0
     for word in sorted(set(labels)):

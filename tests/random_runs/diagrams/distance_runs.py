@@ -198,8 +198,8 @@ def no_outputs(program, task, folder):
 
 
 def expected_refusal(task):
-    """@return the documented exit code, and words of which the message contains one; None if no
-    refusal is expected."""
+    """@return the documented exit code, and words, one of which the message must contain; None if
+    no refusal is expected."""
     if task.matrix and len(task.dims) != 1:
         return 64, ["--matrix"]
     if task.aim != "groups":

@@ -141,7 +141,7 @@ def random_task(rng, folder):
 
 
 def with_senseless(rng, task, options):
-    """@return the options with one that makes no sense, and the name of this option."""
+    """@return the options, one of which makes no sense, and the name of this option."""
     given = {option[0] for option in options}
     wrong = [(name, rng.choice(values)) for name, (values, distances, aims) in SCOPES.items()
              if name not in given and (task.aim not in aims or distances and task.distance not in distances)]

@@ -21,8 +21,8 @@ INF = math.inf
 
 
 def counted(task, dim):
-    """The bars of each input that count, in a dimension or, if `dim` is None, in all; and the
-    number of bars that were left out."""
+    """The bars of each input that count, in one dimension or, if `dim` is None, in all dimensions.
+    @return these bars, and the number of bars that were left out."""
     left_out, found = 0, []
     for own in task.bars:
         kept = []
@@ -42,8 +42,8 @@ def counted(task, dim):
 
 
 def expected_refusal(task):
-    """@return the permitted exit codes, and words of which the message contains one; None if no
-    refusal is expected."""
+    """@return the permitted exit codes, and words, one of which the message must contain; None if
+    no refusal is expected."""
     used = [bar for own in task.bars for bar in own if task.kind == "euler" or bar[0] in task.dims]
     if not task.dims:
         return [65], ["no bars"]
@@ -64,7 +64,7 @@ def expected_refusal(task):
         for points in of_dims:
             far = max(abs(x) for bar in points for x in bar)
             if any(math.dist(p, q) < far * 1e-150 for p, q in itertools.combinations(points, 2)):
-                return [0, 64], ["widths > 0"]  # the square of such a distance is 0
+                return [0, 64], ["widths > 0"]  # the square of so small a distance is 0
     longest = max((e - b for _, b, e in used if e - b < INF), default=0.0)
     if task.kind == "image" and longest > 0 and task.power * math.log10(longest) > 300:
         return [0, 65], ["expected a finite weight"]  # the bar may be outside the pixels
@@ -188,7 +188,7 @@ def compare_fit(program, task, fit, block, dim, diagrams):
             program.differ(f"found other centres: {block}")
         near = min((math.dist(p, q) for p, q in itertools.combinations(set(points), 2)), default=far)
         if near < far * 1e-150:
-            return  # the square of such a distance is 0
+            return  # the square of so small a distance is 0
         if not oracle.are_means(points, centres, 1e-12 * far):
             program.differ(f"found centres that are no means: {block}, points {points}")
         widths = oracle.widths(points, centres)
@@ -262,8 +262,8 @@ def compare(program, task, folder, fits=None):
 # Image tasks.
 
 def image_task(rng, folder):
-    """A task for Euler curves of images, whose values are found by counting cells. @return the task
-    and its options; the bars of the task stand for cells."""
+    """A task for Euler curves of images. The expected values are found by counting cells. @return
+    the task and its options; the bars of the task stand for cells."""
     axes = rng.choice([1, 2, 2, 3])
     task = Task([], [], "euler", [None], infinite="keep")
     options = [["--kind", "euler"], ["--format", "image"]]

@@ -173,7 +173,7 @@ def random_task(rng, folder):
 
 
 def with_senseless(rng, task, options):
-    """@return the options with one that makes no sense, and the name of this option."""
+    """@return the options, one of which makes no sense, and the name of this option."""
     given = {option[0] for option in options}
     dims = {"--dims", "--dim"}
     taken = given | (dims if given & dims else set())

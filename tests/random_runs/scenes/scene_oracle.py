@@ -161,7 +161,8 @@ class Rips:
 
 
 def basins(merges, count, value, least_part):
-    """A cut of a merge tree in the form of the program's JSON. @return the basin of each vertex."""
+    """Cuts a merge tree, whose merges have the form of the program's JSON. @return the basin of
+    each vertex."""
     sets = Sets(count)
     for m in merges:
         separates = m["value"] - m["younger_birth"] >= value and \

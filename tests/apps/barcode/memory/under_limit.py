@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Runs ph-barcode under a memory limit: TEST.py PH_BARCODE PEAK. PEAK is the program of
+"""Runs ph-barcode under a memory limit: TEST.py PH_BARCODE PEAK. PEAK is the program built from
 tests/faults/peak.c."""
 import os
 import resource
@@ -39,8 +39,9 @@ def peak_of(arguments, folder, seconds=None):
 
 
 class UnderLimit(ProgramTest):
-    """Tests under a limit. Each subclass has a function `write_inputs`, which writes the inputs of
-    its tests. Subclasses that share the function also share the inputs: it runs only once."""
+    """The base class of tests under a memory limit. Each subclass has a function `write_inputs`,
+    which writes the inputs of its tests. Subclasses that share the function also share the inputs:
+    it runs only once."""
     written = set()
 
     @classmethod

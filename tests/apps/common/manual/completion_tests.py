@@ -30,7 +30,7 @@ class Completion:
             raise unittest.SkipTest(f"skipped: {cls.shell} is not installed")
 
     def start(self, program, name=None):
-        """Starts the shell in a folder with files and the completion script, which has the name of
+        """Starts the shell in a folder with files and the completion script, which is named after
         the program."""
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
@@ -49,7 +49,7 @@ class Completion:
 
     def shown(self, shell, line, is_expected=None):
         """The text that the shell shows for a line. On a busy machine, the expected text may come
-        late: the line is tried again with more time."""
+        late. Then the line is tried again with more time."""
         for seconds in (0.05, 0.5, 5) if is_expected else (1,):
             text = shell.complete(line, seconds)
             if is_expected and is_expected(text):
