@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 """bench/compare_images.py on a small volume, with peers that are right, peers that are wrong, and
-peers for other inputs."""
+peers that accept only other inputs."""
 import gzip
 import json
 import pathlib

@@ -28,7 +28,7 @@ def pages_of(root):
 
 
 def without_code(text):
-    """Replaces each code block by the same number of empty lines."""
+    """Replaces each code block with the same number of empty lines."""
     return FENCE.sub(lambda match: "\n" * match[0].count("\n"), text)
 
 

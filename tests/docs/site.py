@@ -63,8 +63,8 @@ class Page(html.parser.HTMLParser):
 
 @functools.cache
 def target_of(folder, link):
-    """The pair (file, element) that a link in a folder leads to; the file is "" for the page
-    itself. None if the link leads out of the site."""
+    """The pair (file, element) that a link on a page in the folder leads to; the file is "" for the
+    page itself. None if the link leads out of the site."""
     parts = urlsplit(link)
     if parts.scheme or parts.netloc:
         return None

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
 """complexity.py PH_BARCODE PH_SEGMENT PH_DISTANCE PH_VECTORISE [full] [WORDS…]: runs attacks, which
-are inputs that are designed to need a long time, in sizes n, 2n and 4n. The CPU time must not grow
-faster than the complexity class of the attack allows. Attacks whose time may grow quadratically or
-faster must reach a memory limit, or --dry-run must predict their memory. `full` selects larger
-sizes, and WORDS the attacks whose names contain the words."""
+are inputs designed to make a run slow. Each attack has the sizes n, 2n and 4n. The CPU time must
+not grow faster than the complexity class of the attack allows. Attacks whose time may grow
+quadratically or faster must reach a memory limit, or --dry-run must predict their memory. `full`
+selects larger sizes, and WORDS the attacks whose names contain the words."""
 import dataclasses
 import gzip
 import math
@@ -189,8 +189,8 @@ def texts():
 
 
 ATTACKS = [
-    # The triangulation itself has about n² simplices. It must be built, and a memory limit stops
-    # it.
+    # The triangulation itself has about n² simplices and must be built. A memory limit stops the
+    # run.
     Attack("alpha: two skew lines", points(skew_lines), ALPHA, 250, 2.2, stop=64),
     Attack("alpha: the moment curve", points(moment_curve), ALPHA, 250, 2.4, stop=64),
     Attack("alpha: points of a sphere", points(sphere), ALPHA, 1500),

@@ -3,9 +3,9 @@
 
 strace counts the calls of a run. The script then runs the program again and again: the first call
 fails, then the second, and so on, once with each error that the call may report. Whatever fails,
-the run ends in time with a documented exit code. With 0, the outputs equal the outputs of a run
-without failures. Otherwise there is one error line, each output is complete or absent, and nothing
-else is left in the folder. STEP: only every STEP-th call."""
+the run ends in time with a documented exit code. If the exit code is 0, the outputs equal the
+outputs of a run without failures. Otherwise there is one error line, each output is complete or
+absent, and nothing else is left in the folder. STEP: only every STEP-th call."""
 import collections
 import os
 import pathlib

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""The faults that plant_mutants.py plants in distances and vectors of diagrams; see mutants.py."""
+"""The faults that plant_mutants.py plants in the code for diagram distances and vectors; see
+mutants.py."""
 from mutant import found_by
 
 MUTANTS = [

@@ -4,12 +4,12 @@
 
 plant_mutants.py [--jobs N] [--check] [NAME...]     (names of mutants; default: all)
 
-A mutant is killed if its test program fails or runs into the time limit. It is a failure if the
-tests pass or the mutant does not compile. It is also a failure if the anchor of the mutant
-(mutant.py) or the text to replace does not occur exactly once, because then the sources have
-changed and the mutant must be adapted. The exit code is 0 if all mutants were killed. --check
-builds nothing. It only tests that each mutant can be planted, including the mutants of
-program_mutants.py, and that each anchor has a mutant.
+A mutant is killed if its test program fails or reaches the time limit. It is a failure if the tests
+pass or the mutant does not compile. It is also a failure if the anchor of the mutant (mutant.py) or
+the text to replace does not occur exactly once, because then the sources have changed and the
+mutant must be adapted. The exit code is 0 if all mutants were killed. --check builds nothing. It
+only tests that each mutant can be planted, including the mutants of program_mutants.py, and that
+each anchor has a mutant.
 """
 import argparse
 import os
@@ -89,8 +89,8 @@ def build(tree, programs, jobs):
 def passes(tree, program):
     """True if the tests pass, False if they fail, None if they reached the time limit."""
     try:
-        # Tests of speed and of stopping are left out: they do not concern mutants, and are slow
-        # without optimisation.
+        # Tests of the speed and tests that stop a run are left out, because they do not concern
+        # mutants and are slow without optimisation.
         command = [f"./{program}", "--gtest_fail_fast", "--gtest_brief=1",
                    "--gtest_filter=-RunContexts.*:*LinearTime*:*Duplicates*:*LongChains*:*WideCells*"]
         return subprocess.run(command, cwd=tree, capture_output=True, text=True,

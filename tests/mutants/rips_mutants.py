@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""The faults that plant_mutants.py plants in Vietoris-Rips filtrations and their engines; see mutants.py."""
+"""The faults that plant_mutants.py plants in Vietoris-Rips filtrations and their engines. See
+mutants.py."""
 from mutant import found_by
 
 MUTANTS = [

@@ -3,7 +3,7 @@
 """Checks that the contents listed by scripts/sbom.py agree with the symbols that `nm` finds:
 check_sbom.py BUILD.
 
-The bill of materials is made from the linker's maps and from dependencies; this check looks at
+The bill of materials is made from the linker's map files and from dependencies; this check looks at
 symbols instead. Each symbol that a program defines must be ours, or must come from an archive in a
 package that the bill names (found with `dpkg -L`). Code in headers leaves symbols in its namespace;
 the font and the page leave symbols with their names. Then each package in turn is removed from the
@@ -51,7 +51,7 @@ def archives_of(package):
 
 
 class Evidence:
-    """Evidence of what the programs of a build contain, from all sources."""
+    """All evidence of what the programs of a build contain."""
 
     def __init__(self, build):
         programs = [path.with_suffix("") for path in sorted(build.glob("apps/*/*.map"))]

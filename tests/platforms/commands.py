@@ -82,7 +82,8 @@ PROGRAMS = {"ph-barcode": BARCODE, "ph-segment": SEGMENT}
 
 
 def of_samples():
-    """Commands that read a file of each format. Barcodes go to programs that read them."""
+    """Commands that read a file of each format. Barcode files are given to the programs that read
+    barcodes."""
     for sample in samples.SAMPLES:
         inputs = {sample.name: sample.content}
         for name in sample.needs:

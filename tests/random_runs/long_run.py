@@ -4,7 +4,7 @@
 Runs random jobs for a long time, and disturbs them: by signals at random moments, by limits on
 memory, heap and file size, and by stopping and continuing them. Whatever happens, the output is the
 complete output of the undisturbed run or the previous file, and the exit code tells which. Nothing
-else is left in the folder, unless SIGKILL ended the run. No run takes more memory than its limit
+else is left in the folder, unless SIGKILL ended the run. No run uses more memory than its limit
 plus 32 MiB. If the Python package can be imported, one process runs jobs for the same time, with
 limits, and its memory must not grow. PEAK is the program built from tests/faults/peak.c. Exits with
 1 at the first fault and prints the command; the files are kept in FOLDER."""

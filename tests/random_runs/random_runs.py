@@ -225,8 +225,9 @@ def check_chain(job, kind, bar, representatives):
         representatives.check_cocycle(chain, ends, born, killer)
     loops = [(list(map(tuple, content(loop))) if job.period else content(loop), loop["coefficient"])
              for loop in bar.get("loops", ())]
-    # Vertices do not determine loops with one or two vertices around a periodic space, or which
-    # edge joins the two voxels of a periodic axis. In these cases, only the chain is checked.
+    # The vertices do not determine a loop that has only one or two vertices around a periodic
+    # space. On a periodic axis with two voxels, they do not determine which edge joins the two
+    # voxels. In these cases, only the chain is checked.
     if not loops or any(len(vertices) < 3 for vertices, _ in loops) or job.period and 4 in job.period:
         return
     run_through = {job.name_of(edge): number

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""kills.py PH_BARCODE [KILLS [SEED]]: kills jobs that compute or join parts at random times.
+"""kills.py PH_BARCODE [KILLS [SEED]]: kills, at random times, jobs that compute or join parts.
 
 Whatever was killed, each output is either absent or complete. The same commands, repeated with
 --resume, make the same bytes as an undisturbed run. No process is left running."""

@@ -187,7 +187,7 @@ def check_sharing(mpi, one_process):
 
 
 def check_forecasts(mpi):
-    """--dry-run computes nothing, for any number of ranks. Lines of progress name their rank."""
+    """--dry-run computes nothing, for any number of ranks. Progress lines name their rank."""
     volume(mpi.folder / "image.npy", (24, 20, 16))
     unequal(mpi.folder / "unequal.npy")
     for path, ranks, options, longest in (("image.npy", 3, [], "1.0"), ("image.npy", 30, [], ""),
@@ -203,7 +203,7 @@ def check_forecasts(mpi):
         assert ("share layers by what is in them" in out) == (path == "unequal.npy"), out
         for line in lines[2:]:
             assert re.search(r" [0-9.]+ ([KMG]i)?B to [0-9.]+ ([KMG]i)?B \(", line), out
-    # The run is long enough for each rank to report, because there are at most ten lines per
+    # The run must be long enough for each rank to report, because at most ten lines are written per
     # second.
     volume(mpi.folder / "large.npy", (96, 96, 96))
     code, _, err = mpi.run(3, "large.npy", "-o", "progress.csv", "--progress", "json")
@@ -217,7 +217,7 @@ def check_forecasts(mpi):
 
 
 def check_help(mpi):
-    """The help works without mpirun, it lists the options that ranks accept, and its examples
+    """The help works without mpirun. It lists the options that ranks accept, and its examples
     work."""
     for topic in ("usual", "all", "man", "markdown"):
         text = mpi.help(topic)

@@ -54,7 +54,7 @@ def npz(members, method=zipfile.ZIP_STORED):
 
 
 def gzipped(content):
-    """A gzip file without a time in its header: the bytes are always the same."""
+    """A gzip file whose header has no time. Therefore, the bytes are always the same."""
     packer = zlib.compressobj(9, zlib.DEFLATED, 31)
     return packer.compress(content) + packer.flush()
 

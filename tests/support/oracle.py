@@ -176,8 +176,8 @@ def smallest_ball(points, weights=None):
 
 def cech_filtration(points, max_dim, weights=None):
     """The Čech filtration: a simplex enters with the radius of the smallest ball around it. By the
-    nerve theorem, the complex has the homology of the union of the balls around the points, as the
-    alpha complex has.
+    nerve theorem, the complex has the same homology as the union of the balls around the points, as
+    does the alpha complex.
     @param weights squared radii at the start; with weights, values are squared radii."""
     values = {}
     for count in range(1, max_dim + 3):
@@ -189,8 +189,8 @@ def cech_filtration(points, max_dim, weights=None):
 
 
 def circumscribed(points):
-    """The smallest sphere through points, as its centre and squared radius. None if there is no
-    such sphere, or nearly none."""
+    """The smallest sphere through points, as its centre and squared radius. None if the points are
+    affinely dependent, or nearly so."""
     edges = [[x - y for x, y in zip(p, points[0])] for p in points[1:]]
     at = solve([[2 * sum(a * b for a, b in zip(e, f)) for f in edges] for e in edges],
                [sum(a * a for a in e) for e in edges])

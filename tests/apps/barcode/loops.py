@@ -77,7 +77,7 @@ class Loops(ProgramTest):
             run = self.expect(64, "ring.phat", "--format", "phat", *asked, choice)
             self.assertIn("vertices to walk along", run.stderr)
         self.expect(0, "ring.phat", "--format", "phat", *asked, "none")
-        # Without a request for loops, there is no message about them.
+        # If loops were not requested, no message mentions them.
         self.expect(0, "square.txt", "--representatives", "cycles", "-o", "x.json")
 
     def test_numbers_are_those_of_the_input(self):
@@ -169,7 +169,7 @@ class Loops(ProgramTest):
         (bar,) = self.loops("hole.npy", "--construction", "cells")
         for vertex in bar["loops"][0]["grid"]:
             self.assertTrue(all(x % 2 == 0 and 0 <= x <= 6 for x in vertex))
-        # The loop crosses the end of a periodic axis.
+        # The loop crosses the place where a periodic axis closes.
         self.write("band.npy", files.array((2, 5), [1.0] * 5 + [3.0] * 5))
         bar = self.loops("band.npy", "--periodic", "1")[0]
         self.assertEqual(bar["loops"][0]["grid"], [[0, 0], [0, 2], [0, 4], [0, 6], [0, 8]])

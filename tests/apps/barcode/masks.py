@@ -2,8 +2,8 @@
 """Voxels left out by a mask never enter: tests random images with a mask in each format that
 supports masks.
 
-The script writes files; oracle.py computes the expected barcodes from the numbers and never sees a
-file. For more images than in the suite: masks.py PROGRAM --images 20000
+The script writes files; oracle.py computes the expected barcodes from the numbers and reads no
+files. To test more images than the suite does: masks.py PROGRAM --images 20000
 """
 import gzip
 import itertools
@@ -159,7 +159,7 @@ class Masks(ProgramTest):
             shape = [choose.randint(2, 4), choose.randint(2, 4)]
             counts = {at: choose.choice((0, 0, 1, 2, 3)) for at in in_c_order(shape)}
             counts[0, 0] = counts[tuple(n - 1 for n in shape)] = 1
-            # The grid spans from a point in the first voxel to a point in the last voxel, and has a
+            # The grid extends from a point in the first voxel to a point in the last voxel, plus a
             # margin of one voxel.
             points = [[x + (0.0 if at == (0, 0) else 0.5) for x in at] for at in counts for _ in range(counts[at])]
             self.write("points.csv", "".join(f"{x},{y}\n" for x, y in points))

@@ -57,8 +57,8 @@ class Options(ProgramTest):
         bars = json.loads(self.read("out.json"))["bars"]
         self.assertEqual([bar["p"] for bar in bars if bar["dim"] == 1], [p for _, _, p in loops])
         self.assertFalse([bar for bar in bars if bar["dim"] == 0 and "p" in bar])
-        # A bar that is cut off by the threshold has no p-value. Written bars can be read again; the
-        # p-values are not read.
+        # A bar that is cut off by the threshold has no p-value. When written bars are read again,
+        # their p-values are ignored.
         self.expect(0, "circle.csv", "--significance", "--threshold", "0.8", "-o", "cut.csv")
         self.assertIn("inf,\n", self.read("cut.csv"))
         again = self.expect(0, "cut.csv")

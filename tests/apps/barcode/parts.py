@@ -264,8 +264,8 @@ class Clouds(PartsTest):
         self.assertIn("a different part", self.expect(0, *again, "--threshold", "3").stderr)
         self.expect(0, *again[:-1], "--quiet")
         kept = self.read(cloud)
-        # Replaces the cloud by another one that has the same number of points and is older than the
-        # part.
+        # Replaces the cloud with another one that has the same number of points and is older than
+        # the part.
         self.write(cloud, self.read(other))
         os.utime(self.path(cloud), (old, old))
         self.assertIn("a different part", self.expect(0, *again).stderr)

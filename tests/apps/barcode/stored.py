@@ -243,7 +243,7 @@ class Stored(ProgramTest):
         self.assertIn("--dims 3: there are no bars", self.expect(0, *draw, "--dims", "1,3").stderr)
         self.expect(0, *draw, "--axis", "0,2")
         self.assertIn("2.0", self.texts("x.svg"))
-        self.assertIn("1 beyond", self.texts("x.svg"))  # [5, 6)
+        self.assertIn("1 beyond", self.texts("x.svg"))  # the bar [5, 6)
         self.expect(0, *draw, "--axis", "log")
         self.assertTrue({"1", "10", "100"} <= set(self.texts("x.svg")), self.texts("x.svg"))
         self.expect(0, *draw, "--size", "640x480")

@@ -114,7 +114,7 @@ def test_others(t):
     compared = t.run(t.barcode, "--compare", "a.json", "b.json", "--output-format", "json", "--quiet")
     t.check("ph-barcode-distances", compared.stdout, "--compare")
     noise = bytes((i * i * 2654435761 >> 7) & 255 for i in range(500 * 500))
-    (t.folder / "noise.raw").write_bytes(noise)  # slow enough that progress is reported
+    (t.folder / "noise.raw").write_bytes(noise)  # large enough that a run reports progress
     lines = t.run(t.barcode, "noise.raw", "--raw-shape", "500,500", "--engine", "standard", "--progress", "json",
                   "--quiet", "--output-format", "none").stderr.splitlines()
     if not lines:

@@ -1,14 +1,15 @@
 # SPDX-License-Identifier: MIT
 """option_inputs.py PH_BARCODE PH_SEGMENT [TABLE.csv [OPTION...]]: tests each option of each program
-with each kind of input. It runs the program with and without the option. The option
+with each kind of input. It runs the program with and without the option. One of these statements
+must be true:
 
-* changes the result (exit code, standard output, files), or
-* affects something other than the result: a message, a field of the JSON, how the result is
-  computed, or
-* is refused (64) by name, or
-* is reported on standard error to have no effect.
+* The option changes the result (exit code, standard output, files).
+* The option affects something other than the result: a message, a field of the JSON, or how the
+  result is computed.
+* The option is refused (64) by name.
+* Standard error reports that the option has no effect.
 
-Any other option was silently ignored (SILENT), and the test fails. The test also fails if the
+Otherwise, the option was silently ignored (SILENT), and the test fails. The test also fails if the
 option turns the input into bad data without a message about the option, or if the program does not
 obey the option. For an option with choices (the help lists them as a|b|c), each choice is tried: it
 is refused by name, or its result differs from the result of every other choice.

@@ -115,7 +115,7 @@ def said_of(program):
 
 
 def parts_of(program, floats):
-    """The files of the two parts of an image, whose bars have cells."""
+    """The two part files of an image. The bars in these files have cells."""
     parts = {}
     with tempfile.TemporaryDirectory() as folder:
         with open(os.path.join(folder, "i.npy"), "wb") as file:

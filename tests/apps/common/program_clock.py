@@ -3,8 +3,8 @@
 WRONG-CLOCK.so
 
 Whatever the clock says, a run ends in time with exit code 0 and the same output as with a correct
-clock. Lines of progress are still JSON with finite numbers. Processes that wait for each other are
-not tested, because the kernel, whose clock stays correct, decides how long they wait."""
+clock. Progress lines are still JSON with finite numbers. Processes that wait for each other are not
+tested, because the kernel, whose clock stays correct, decides how long they wait."""
 import itertools
 import json
 import math

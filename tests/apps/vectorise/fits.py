@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""ph-vectorise: a fit can be stored, and gives the same vectors again."""
+"""ph-vectorise: a stored fit gives the same vectors again."""
 import json
 import os
 import sys

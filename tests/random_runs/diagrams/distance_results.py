@@ -154,7 +154,7 @@ def read_matrix(program, task, folder):
 
 def read_matching(program, task, folder):
     """@return rows (dim, number of the bar of a, number of the bar of b, both ends of the bar of a,
-    both ends of the bar of b, cost). The number is None for a place on the diagonal."""
+    both ends of the bar of b, cost). A number is None for a place on the diagonal."""
     text = pathlib.Path(folder, task.matching).read_text(encoding="utf-8")
     if task.matching.endswith(".csv"):
         found = []

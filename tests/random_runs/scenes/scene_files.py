@@ -270,7 +270,7 @@ def lzf_unpacked(packed):
 
 
 def unpacked(columns):
-    """Replaces a packed colour by its three channels."""
+    """Replaces a packed colour with its three channels."""
     out = {}
     for name, array in columns.items():
         if name in ("rgb", "rgba") and "red" not in columns:

@@ -148,7 +148,7 @@ def stream(rng, np_rng, program, check, tree, source, names):
     """The frames of a stream have the same labels as single frames. A failing frame does not affect
     the others."""
     if check.scene.depth is not None or check.asked.plane or ".gz" in check.file.name:
-        return  # the plane is first searched for where it was in the previous frame
+        return  # the search for the plane begins at the plane of the previous frame
     folder = pathlib.Path(program.folder)
     other = dataclasses.replace(check.scene, xyz=check.xyz[::-1].copy(), shape=None, colours=None, normals=None,
                                 extra=[])

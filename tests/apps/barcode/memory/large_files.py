@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Tests memory-mapped inputs that are larger than the memory limit plus all allowed additional
-memory. Whatever part of the program reads them, it keeps to the limit. A run that needs more memory
-fails soon."""
+memory. The program keeps to the limit, whatever part of it reads the input. A run that needs more
+memory fails soon."""
 import gzip
 import os
 import shutil
@@ -12,7 +12,7 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../
 from program import files, main  # noqa: E402
 from under_limit import BESIDE, UnderLimit  # noqa: E402
 
-SECONDS = 60  # CPU seconds; every run ends within them
+SECONDS = 60  # CPU seconds; every run must end within this time
 SECONDS_TO_REFUSE = 6  # CPU seconds; a refusal takes one or two
 MIDDLE = struct.pack("<4d", 1, 2, 1, 3)
 

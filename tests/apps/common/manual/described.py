@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Parses the options in a program's help, for tests of other output made from the same
+"""Parses the options in a program's help, for tests of other texts that are generated from the same
 description."""
 import os
 import re
