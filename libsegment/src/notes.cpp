@@ -41,14 +41,14 @@ std::string about_units(const SegmentOptions& o, bool is_depth, const Cloud& clo
       is_depth ? "see " + mark(Setting::depth_scale) : std::string("lengths are in metres");
   if (s.stages.front().points == 0) {
     const std::string range = mark(Setting::max_range);
-    return fmt::format(
-        "no point within {} m of the viewpoint{}, the nearest is at {:.3g} m; {}", o.max_range,
-        o.crop ? " and inside the crop box" : "", nearest,
-        nearest > room ? fmt::format("{}: are these millimetres?", unit)
-        : is_depth     ? fmt::format("see {}, or {} if that is too far: the number of units per "
-                                         "metre",
-                                     range, mark(Setting::depth_scale))
-                       : "see " + range);
+    return fmt::format("no point within {} m of the viewpoint{}, the nearest is at {:.3g} m; {}",
+                       o.max_range, o.crop ? " and inside the crop box" : "", nearest,
+                       nearest > room ? fmt::format("{}: are these millimetres?", unit)
+                       : is_depth
+                           ? fmt::format("see {}; if that distance is wrong, see {}, the number of "
+                                         "units per metre",
+                                         range, mark(Setting::depth_scale))
+                           : "see " + range);
   }
   if (farthest >= crumb) return {};
   return fmt::format("all points are within {:.3g} m of the viewpoint; {}", farthest, unit);

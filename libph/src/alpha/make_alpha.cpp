@@ -100,16 +100,16 @@ Alpha::Alpha(PointsView points, const AlphaOptions& options, const RunContext& c
     throw Error(ErrorKind::usage, "threshold: found nan, expected a number");
   if (!options.weights.empty() && unit_ == AlphaOptions::Unit::radius)
     throw Error(ErrorKind::usage,
-                "alpha complex of weighted points: found the unit radius, expected squared, "
-                "because squared radii may be negative");
+                "alpha complex with weights: found unit 'radius', expected 'squared', because "
+                "squared radii may be negative");
   if (!options.weights.empty() && kind_ != AlphaOptions::Value::alpha)
     throw Error(ErrorKind::usage,
-                "alpha complex of weighted points: found values other than alpha, which need "
-                "points without weights");
+                "alpha complex with weights: found values other than alpha values, expected alpha "
+                "values");
   if (alpha::closes_up(options.period) && kind_ != AlphaOptions::Value::alpha)
     throw Error(ErrorKind::usage,
-                "alpha complex of a periodic space: found values other than alpha, which need "
-                "a space that does not close up");
+                "alpha complex of a periodic space: found values other than alpha values, "
+                "expected alpha values");
   cells_ = std::make_shared<const alpha::AlphaCells>(
       alpha::alpha_cells(points, options.weights, options.period, context));
   if (unit_ == AlphaOptions::Unit::squared) check_squares(cells_->sites.exponent);

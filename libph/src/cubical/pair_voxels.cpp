@@ -150,12 +150,13 @@ void pair_by_slabs(const CubicalImage& voxels, const K& field, const BarRequest&
                    const RunContext& context, const BarSink& sink) {
   const LayeredImage image(voxels);
   if (wants_loops(image.shape(), wanted) && !StarGrid::can_hold(voxels))
-    throw Error(ErrorKind::resource,
-                "bars of dimension 1: found " + std::to_string(voxels.size()) +
-                    " voxels, expected fewer than about 2^31; dimension 0 (max_dim 0)" +
-                    (image.shape().any_periodic() ? "" : " and dimension 2 (min_dim 2)") +
-                    " allow more, and parts of the image, on several machines or in several "
-                    "processes, allow all dimensions");
+    throw Error(
+        ErrorKind::resource,
+        "bars of dimension 1: found " + std::to_string(voxels.size()) +
+            " voxels, expected fewer than about 2^31; a larger image is possible for dimension "
+            "0 alone (max_dim 0)" +
+            (image.shape().any_periodic() ? "" : ", for dimension 2 alone (min_dim 2)") +
+            ", and for all dimensions if it is computed in parts");
   PairSink pairs(image.shape(), wanted.cells, sink);
   Slabs slabs(image, Slabs::layers_that_fit(image, context), context);
   pair_in_slabs(slabs, field, wanted, context, pairs);

@@ -11,11 +11,11 @@ namespace {
 std::string_view asked_beside(const Task& task) {
   switch (task.representatives) {
     case Representatives::cycles:
-      return " with cycles";
+      return " together with cycles";
     case Representatives::voxels:
-      return " with sets of voxels";
+      return " together with sets of voxels";
     case Representatives::cocycles:
-      return " with cocycles";
+      return " together with cocycles";
     case Representatives::none:
       break;
   }
@@ -49,15 +49,17 @@ void check_as_it_is(const Options& options, bool has_incidences) {
 
 void refuse(Engine asked, const Task& task) {
   if (asked != Engine::automatic)
-    throw Error(ErrorKind::usage,
-                fmt::format("engine {} cannot compute homology up to dimension {} of this complex{}"
-                            "{}",
-                            asked.name(), task.max_dim, asked_beside(task),
-                            task.zero_length ? ", zero-length bars included" : ""));
+    throw Error(
+        ErrorKind::usage,
+        fmt::format("engine {}: cannot compute homology of this complex up to dimension {}{}{}",
+                    asked.name(), task.max_dim, asked_beside(task),
+                    !task.zero_length            ? ""
+                    : asked_beside(task).empty() ? " together with zero-length bars"
+                                                 : " and zero-length bars"));
   if (!task.wants_no_sets())
     throw Error(ErrorKind::usage,
-                "sets of voxels need an image of at most three axes that have more than one voxel, "
-                "and bars of positive length");
+                "sets of voxels need an image in which at most three axes have more than one "
+                "voxel, and bars of positive length");
   throw Error(ErrorKind::usage, "cocycles need a complex that can list the cofacets of its cells");
 }
 

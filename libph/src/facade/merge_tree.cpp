@@ -150,8 +150,9 @@ MergeTree merge_tree(const Rips& rips, const RunContext& context) {
   const RipsGraph& graph = rips.graph(detail::form_of_tree(rips), context);
   if (graph.has_names())
     throw Error(ErrorKind::usage,
-                "merge tree: found a selection of vertices, merged equal points, or a threshold "
-                "below the births (weights) of some points, expected all points as vertices");
+                "merge tree: found points that are not vertices, because only some vertices are "
+                "selected, equal points are merged, or the threshold is below some births "
+                "(weights); expected all points as vertices");
   return with_rips_filtration(graph, 0, [&](const auto& f) { return tree_of(f, context); });
 }
 

@@ -84,8 +84,8 @@ int max_dim_of(const Rips& rips, const Options& options) {
   }
   if (!options.max_dim && options.min_dim > max_dim) {
     throw Error(ErrorKind::usage,
-                fmt::format("lowest dimension: found {}, expected at most {}, the highest "
-                            "dimension computed unless another one is given",
+                fmt::format("lowest dimension: found {}, expected at most {}, the default of the "
+                            "highest dimension",
                             options.min_dim, max_dim));
   }
   return max_dim;

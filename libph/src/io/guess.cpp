@@ -89,12 +89,12 @@ ArrayGuess guess_array(const Input& input, const ReadOptions& options) {
     if (npy.kind == 'f' && columns > 0 && columns <= kMostCoordinates && rows >= kSlender * columns)
       return {ArrayMeaning::image,
               fmt::format("an array of three axes: read as a volume; if it holds {} sets of "
-                          "{} x {} points, take one, a[i]",
+                          "{} x {} points, take one set, a[i]",
                           npy.shape[0], rows, columns)};
     if (npy.kind == 'u' && npy.array.type.size == 1 && (columns == 3 || columns == 4))
       return {ArrayMeaning::image,
               fmt::format("an array of three axes: read as a volume; if it is a picture with {} "
-                          "channels, take one, a[..., 0]",
+                          "channels, take one channel, a[..., 0]",
                           columns)};
   }
   if (npy.shape.size() != 2 || npy.count == 0 || !o.columns.empty()) return otherwise;

@@ -187,7 +187,8 @@ void check_approximation(const RipsData& data, const RipsOptions& options) {
     throw Error(ErrorKind::usage, "sparse Rips filtrations need all distances, found only some");
   const auto* matrix = std::get_if<DistanceMatrix>(&data);
   if (!options.births.empty() || options.dtm_neighbours || (matrix && !matrix->births().empty()))
-    throw Error(ErrorKind::usage, "sparse Rips filtrations have no births of vertices");
+    throw Error(ErrorKind::usage,
+                "sparse Rips filtrations need vertices that enter at 0, found births of vertices");
   SparseRips::check_epsilon(*options.approximation);
 }
 

@@ -79,8 +79,8 @@ void check_range(const PixelRange& range, std::string_view name) {
       std::abs(range.hi) > kLargestPixel)
     throw Error(
         ErrorKind::usage,
-        fmt::format("persistence_image: {}: found a range from {} to {}, expected one from a "
-                    "number to a larger one, at most {} in absolute value",
+        fmt::format("persistence_image: {}: found a range from {} to {}, expected the smaller end "
+                    "first, and both ends at most {} in absolute value",
                     name, range.lo, range.hi, kLargestPixel));
 }
 

@@ -158,10 +158,11 @@ PlaneSearch find_plane(const CloudView& cloud, const std::vector<Index>& points,
     if (const auto better = refit(*found, sample, i == 0 ? of_search : 1)) found = better;
   const double share = share_of(*found, sample);
   if (share < kLeastShareOfSupport) {
-    return {std::nullopt,
-            fmt::format("no plane: the largest one holds {:.1f} % of the points in range, less "
-                        "than {:.0f} %",
-                        100 * share, 100 * kLeastShareOfSupport)};
+    return {
+        std::nullopt,
+        fmt::format("no plane: the largest candidate holds {:.1f} % of the points in range, less "
+                    "than {:.0f} %",
+                    100 * share, 100 * kLeastShareOfSupport)};
   }
   const Candidate plane = facing(*found, viewpoint);
   const Eigen::Vector3d& n = plane.normal;

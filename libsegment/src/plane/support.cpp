@@ -115,10 +115,10 @@ PlaneSearch find_support(const CloudView& cloud, const std::vector<Index>& point
   const Sample sample = draw_sample(cloud, points, margin);
   const Squared around = squared(*largest.plane, sample);
   if (goes_on_behind(around))  // mutant: support-face
-    return {std::nullopt, "no plane: the surface goes on behind the largest one"};
+    return {std::nullopt, "no plane: the surface goes on behind the largest candidate"};
   if (is_alone(around))  // mutant: support-alone
     return {std::nullopt,
-            "no plane: the largest one is smaller than a table, and nothing is on it"};
+            "no plane: the largest candidate is smaller than a table, and nothing is on it"};
   if (!bounds_the_view(*largest.plane, cloud)) return largest;  // mutant: support-wall
   PlaneSearch support = largest;
   std::size_t most_things = squares_with_things(around);

@@ -194,8 +194,7 @@ class TreeReader {
       if (v > 0 &&
           !std::ranges::lexicographical_compare(
               scene_.cells[v - 1].rbegin(), scene_.cells[v - 1].rend(), cell.rbegin(), cell.rend()))
-        fail("corner of a voxel", "one that does not come after the one before it",
-             "the order of the grid");
+        fail("corner of a voxel", "one that is out of order", "the order of the grid");
     }
     scene_.vertices = Points(vertices_, 3);
     for (std::size_t v = 0; v < n; ++v) {

@@ -60,7 +60,8 @@ class Outputs(ProgramTest):
         self.assertEqual((run.returncode, self.read("out.csv")), (73, "old"), run.stderr)
         self.assertEqual(run.stderr.count("\n"), 1, run.stderr)
         self.assertIn("out.csv: cannot create the output", run.stderr)
-        self.assertIn("expected another name, or '-' redirected into it", run.stderr)
+        self.assertIn("expected another name, or '-' with standard output redirected into it",
+                      run.stderr)
 
     def test_a_file_that_is_mounted(self):
         self.write("out.csv", "old")

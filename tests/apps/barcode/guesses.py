@@ -74,7 +74,7 @@ class Matrices(GuessTest):
         header = "," + ",".join(names) + "\n"
         rows = [f"{names[i]}," + csv([self.r[i]]) for i in range(20)]
         self.write("named.csv", header + "".join(rows))
-        self.check(self.of_r, "named.csv", "--from-correlation", note="names of the rows|no name")
+        self.check(self.of_r, "named.csv", "--from-correlation", note="holds row names|no name")
         self.refused(65, ["--from-correlation"], "named.csv")
         numbered = [f"{i}," + csv([self.r[i]]) for i in range(20)]
         self.write("numbered.csv", "," + ",".join(map(str, range(20))) + "\n" + "".join(numbered))

@@ -40,12 +40,12 @@ class Tables(GuessTest):
         self.write("t.csv", self.table("t,x,y", lambda i: i))
         self.check(with_index, "t.csv", silent=["first column"])
         self.write("t.csv", self.table("t,x,y", lambda i: i).split("\n", 1)[1])
-        self.check(with_index, "t.csv", note="counts the rows and is read as a coordinate")
+        self.check(with_index, "t.csv", note="holds row numbers and is read as a coordinate")
         self.write("t.csv", self.table("id,x,y", lambda i: i * i + 3))
         self.h0("t.csv", note="id, is read as numbers; --columns 2-3")
         for name in ("sample_id", "n", "point", "obs", "subject", "sample", "row id"):
             self.write("t.csv", self.table(f"{name},x,y", lambda i: i + 1))
-            self.h0("t.csv", note=f"{name}, counts the rows and is read as a coordinate; "
+            self.h0("t.csv", note=f"{name}, holds row numbers and is read as a coordinate; "
                                   "--columns 2-3")
             self.check(self.pairs, "t.csv", "--columns", "2-3", silent=["counts"])
 

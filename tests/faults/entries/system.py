@@ -193,10 +193,10 @@ def inputs():
                       named="link.txt", program=program, around=with_link("nothing", "link.txt"))
         yield refused(54, f"{program}: a link to itself", "link.txt", code=66, message="link",
                       named="link.txt", program=program, around=with_link("link.txt", "link.txt"))
-        yield refused(53, f"{program}: /dev/zero", "/dev/zero", code=65, message="stream of NUL bytes",
+        yield refused(53, f"{program}: /dev/zero", "/dev/zero", code=65, message="only NUL bytes in the first MiB",
                       named="/dev/zero", program=program, around=with_device("/dev/zero"))
         yield refused(53, f"{program}: /dev/zero as standard input", "-", code=65,
-                      message="stream of NUL bytes", named="<stdin>", program=program,
+                      message="only NUL bytes in the first MiB", named="<stdin>", program=program,
                       around=from_device("/dev/zero"))
         yield refused(53, f"{program}: /dev/urandom", "/dev/urandom", "--memory-limit", "32MiB",
                       code=75, message="larger than the memory limit", named="/dev/urandom",

@@ -91,7 +91,7 @@ TEST(ImagePart, RefusesLayersThatAreNone) {
             EXPECT_EQ(error.kind(), ErrorKind::usage);
             const std::string why = error.what();
             EXPECT_EQ(why.find("first layers of parts: found "), 0U) << why;
-            EXPECT_NE(why.find("one for each of 3 parts, ascending from 0 on, below 7"),
+            EXPECT_NE(why.find("one for each of 3 parts, from 0 in ascending order, each below 7"),
                       std::string::npos)
                 << why;
           }
@@ -186,8 +186,8 @@ TEST(ImagePart, RefusesPartsAndImagesThatAreNone) {
   };
   refused(image, 0, 5, "found 5, expected 1 to 4");
   refused(image, 0, 0, "found 0, expected 1 to 4");
-  refused(image, 3, 3, "found number 4 of 3");
-  refused(image, -1, 3, "found number 0 of 3");
+  refused(image, 3, 3, "found part 4 of 3");
+  refused(image, -1, 3, "found part 0 of 3");
   refused(random.image({7}, false), 0, 1, "expected two or more");
   refused(random.image({2, 2, 2, 2, 2, 2, 2, 2, 2}, false), 0, 1, "found 9 axes");
   refused(random.image({3, 3, 3}, false), 0, 1, "dimension 0 alone, or 2 alone");

@@ -110,7 +110,7 @@ TEST(ManyAxesPart, SaysWhatCanBeHad) {
   refused({2, 2, 2, 2}, {.min_dim = 2, .loops = true}, "expected dimension 0 alone, or 3 alone");
   refused({2, 2, 2, 2, 2}, {.min_dim = 3}, "dimension 0 alone, or 4 alone");
   refused({2, 2, 2, 2}, {.cubical = {.periodic = {false, true, false, false}}, .min_dim = 3},
-          "dimension 0 alone where an axis closes up");
+          "dimension 0 alone in an image with a periodic axis");
   refused({2, 2, 2, 2, 1},
           {.cubical = {.periodic = {false, false, false, false, true}}, .min_dim = 3},
           "dimension 0 alone, or 4 alone");

@@ -163,11 +163,12 @@ TEST(Slabs, HoldMoreVoxelsThanPlacesOf32BitsCount) {
 TEST(Slabs, RefuseLoopsOfTooManyVoxels) {
   const Image volume = zeros({1 << 11, 1 << 10, (1 << 10) + 1});
   const Cubical cubical(volume);
-  expect_error(ErrorKind::resource,
-               "found 2149580800 voxels, expected fewer than about "
-               "2^31; dimension 0 (max_dim 0) and dimension 2 "
-               "(min_dim 2) allow more",
-               [&] { persistence(cubical); });
+  expect_error(
+      ErrorKind::resource,
+      "found 2149580800 voxels, expected fewer than about "
+      "2^31; a larger image is possible for dimension 0 alone (max_dim 0), for dimension 2 "
+      "alone (min_dim 2), and for all dimensions",
+      [&] { persistence(cubical); });
 }
 
 // Noise has more critical cells than voxels. Its loops therefore do not fit into memory, but

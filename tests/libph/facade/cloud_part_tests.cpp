@@ -288,8 +288,8 @@ TEST(CloudPart, RefusesPartsAndCloudsThatAreNone) {
   };
   refused(points, 0, 0, {}, "found 0, expected 1 to 2^30");
   refused(points, 0, (1 << 30) + 1, {}, "found 1073741825, expected 1 to 2^30");
-  refused(points, 3, 3, {}, "found number 4 of 3");
-  refused(points, -1, 3, {}, "found number 0 of 3");
+  refused(points, 3, 3, {}, "found part 4 of 3");
+  refused(points, -1, 3, {}, "found part 0 of 3");
   refused(points, 0, 1, {.threshold = -1}, "threshold -1");
   refused(points, 0, 1, {.threshold = std::nan("")}, "threshold nan");
   refused(points, 0, 1, {.distance = PointDistance::manhattan}, "expected the Euclidean distance");

@@ -31,7 +31,7 @@ TEST(Options, MakeSenseOrAreRefused) {
   refuse("found 0", {.field = 0});
   refuse("found -2", {.field = -2});
   refuse("found 2147483648", {.field = std::int64_t{1} << 31});
-  refuse("union-find cannot compute homology up to dimension 1",
+  refuse("engine union-find: cannot compute homology of this complex up to dimension 1",
          {.max_dim = 1, .engine = Engine::union_find});
 
   const ExplicitComplex unsigned_edge =

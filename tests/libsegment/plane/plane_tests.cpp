@@ -127,7 +127,7 @@ TEST(Plane, SaysWhyThereIsNone) {
   for (int i = 0; i < 30000; ++i) ball.push_back(any(random));
   const PlaneSearch search = find_plane({ball, {}}, all_of(ball), {0.006});
   EXPECT_FALSE(search.plane);
-  EXPECT_NE(search.note.find("largest one holds"), std::string::npos);
+  EXPECT_NE(search.note.find("largest candidate holds"), std::string::npos);
 }
 
 TEST(Plane, HundredThousandsOfDuplicatesAreOnePoint) {

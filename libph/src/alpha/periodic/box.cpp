@@ -30,13 +30,13 @@ class Extent {
 void check_periods(PointsView points, std::span<const double> period) {
   if (period.size() != static_cast<std::size_t>(points.cols()))
     throw Error(ErrorKind::usage, fmt::format("period: found {} lengths, expected one for each of "
-                                              "{} axes, 0 for an axis that does not close up",
+                                              "{} axes, with 0 for an axis that is not periodic",
                                               period.size(), points.cols()));
   for (std::size_t axis = 0; axis < period.size(); ++axis)
     if (!(period[axis] >= 0) || !std::isfinite(period[axis]))
       throw Error(ErrorKind::usage,
                   fmt::format("period of axis {}: found {}, expected a finite length, or 0 if the "
-                              "axis does not close up",
+                              "axis is not periodic",
                               axis, period[axis]));
 }
 

@@ -21,8 +21,8 @@ Range periods_within(double x, double period, double margin) {
   constexpr auto most = static_cast<double>(kMostPeriods);
   if (!(before < most && behind < most))
     throw Error(ErrorKind::resource,
-                "alpha complex: found points so far apart along open axes that more than 2^18 "
-                "images of each are needed along a closed axis");
+                "alpha complex: found points so far apart along axes without a period that more "
+                "than 2^18 periodic copies of each point are needed along another axis");
   return {-static_cast<std::int64_t>(before), static_cast<std::int64_t>(behind)};
 }
 
@@ -54,7 +54,8 @@ Images images_within(const Sites& sites, const Box& box, const Margin& margin_of
           images.site.push_back(site);
           images.translation.push_back(translation_by({i, j, k}));
           if (places.size() >= kNone / 4)
-            throw Error(ErrorKind::resource, "alpha complex: found too many images of points");
+            throw Error(ErrorKind::resource,
+                        "alpha complex: found too many periodic copies of points");
           ticker.work();
         }
   }

@@ -18,12 +18,12 @@ using std::uint32_t;
 
 void check_values(const Alpha& alpha, double value, std::string_view what) {
   if (alpha.value_kind() != AlphaOptions::Value::alpha)
-    throw Error(ErrorKind::usage,
-                std::string(what) + ": found values other than alpha, expected alpha");
+    throw Error(
+        ErrorKind::usage,
+        std::string(what) + ": found values other than alpha values, expected alpha values");
   if (alpha.is_periodic())
-    throw Error(ErrorKind::usage, std::string(what) +
-                                      ": found a periodic space, expected a space "
-                                      "that does not close up");
+    throw Error(ErrorKind::usage,
+                std::string(what) + ": found a periodic space, expected one without periods");
   if (!std::isnan(value)) return;
   throw Error(ErrorKind::usage, std::string(what) + ": found nan, expected a value");
 }

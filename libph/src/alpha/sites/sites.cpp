@@ -62,7 +62,7 @@ double scaled(double x, int exponent, Index point) {
   if (times_power_of_two(result, exponent) != x)                 // mutant: alpha-bits-lost
     throw Error(ErrorKind::bad_data,
                 fmt::format("point {}: found {:g} in data with numbers as large as 2^{}, expected "
-                            "numbers of closer magnitudes",
+                            "numbers whose magnitudes differ less",
                             point, x, exponent));
   return result;
 }

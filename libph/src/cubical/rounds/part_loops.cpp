@@ -119,7 +119,7 @@ void PartLoops<K>::check(const Message& message) {
   for (const auto& column : message.columns)
     for (const Term& term : column.terms)
       if (grid_.owns(term.cell.voxel()) && !is_free(term.cell))
-        refuse("loops of another part: found an edge that is in a pair");
+        refuse("loops of another part: found an edge that is already paired");
 }
 
 template <Field K>

@@ -40,7 +40,7 @@ void check(PointsView points, int part, int parts, const CloudPartOptions& optio
   if (options.threshold && !(*options.threshold >= 0))
     refuse(fmt::format("found threshold {}, expected a number >= 0", *options.threshold));
   if (parts < 1 || parts > 1 << 30) refuse(fmt::format("found {}, expected 1 to 2^30", parts));
-  if (part < 0 || part >= parts) refuse(fmt::format("found number {} of {}", part + 1, parts));
+  if (part < 0 || part >= parts) refuse(fmt::format("found part {} of {}", part + 1, parts));
   if (options.blocks < 0 || options.blocks > (1 << 30) / parts)
     refuse(fmt::format("found {} blocks in each of {} parts, expected at most 2^30 blocks in total",
                        options.blocks, parts));
@@ -177,8 +177,8 @@ void CloudPart::State::check_joined() const {
       forest.edges.size() + 1 == static_cast<std::size_t>(std::max<Index>(whole.points, 1));
   if (size != whole.points || !forest.claims.empty() || !is_spanning)  // mutant: cloud-joined
     throw Error(ErrorKind::bad_data,
-                "parts of a cloud: found points that are not joined as the parts claim; "
-                "expected parts of one cloud, made while its points did not change");
+                "parts of a cloud: found points that are not joined as the parts claim, expected "
+                "parts of one cloud whose points did not change between the parts");
 }
 
 // Each edge of the forest kills one component. All components are born at 0.

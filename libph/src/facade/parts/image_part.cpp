@@ -112,12 +112,12 @@ WholeImage cubical::checked_whole(const Image& image, int parts, const ImagePart
   const std::uint64_t layers = layers_of(shape);
   if (parts < 1 || static_cast<std::uint64_t>(parts) > layers)
     throw Error(ErrorKind::usage, fmt::format("parts of an image: found {}, expected 1 to {}, the "
-                                              "layers of its slowest axis",
+                                              "number of layers along its slowest axis",
                                               parts, layers));
   if (!whole.has_layers(shape))
     throw Error(ErrorKind::usage,
                 fmt::format("first layers of parts: found {}, expected one for each of {} parts, "
-                            "ascending from 0 on, below {}",
+                            "from 0 in ascending order, each below {}",
                             fmt::join(whole.first_layers, ", "), parts, layers));
   whole.loops = wants_loops(shape, whole.wanted());
   const int top = shape.top_dim();
@@ -132,7 +132,7 @@ WholeImage cubical::checked_whole(const Image& image, int parts, const ImagePart
                                 ? fmt::format("dimension {}", highest)
                                 : fmt::format("dimensions {} to {}", whole.min_dim, highest),
                             shape.any_periodic()
-                                ? " where an axis closes up"
+                                ? " in an image with a periodic axis"
                                 : fmt::format(", or {} alone", lowest_of_top_cells(shape))));
   const GridShape::Axis& axis = shape.axis(shape.layer_axis());
   if (image.values.size() != axis.extent * axis.stride)
@@ -147,7 +147,7 @@ ImagePart::ImagePart(const Image& image, int part, int parts, const ImagePartOpt
   state_ = std::make_unique<State>(cubical::checked_whole(image, parts, options), context);
   if (part < 0 || part >= parts)
     throw Error(ErrorKind::usage,
-                fmt::format("part of an image: found number {} of {}", part + 1, parts));
+                fmt::format("part of an image: found part {} of {}", part + 1, parts));
   const GridShape& shape = state_->shape;
   const GridShape::Axis& axis = shape.axis(shape.layer_axis());
   state_->first = state_->last = part;

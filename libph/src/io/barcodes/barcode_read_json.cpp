@@ -300,8 +300,7 @@ class Reader {
 
   void set_kind(CellKind kind, std::size_t place) {
     if (any_cell_ && kind != kind_) {
-      json_.fail(place,
-                 {"cell", "a kind that differs from earlier cells", "cells of one kind", {}});
+      json_.fail(place, {"cell", "a second kind of cell", "cells of one kind", {}});
     }
     any_cell_ = true;
     kind_ = kind;
@@ -322,7 +321,7 @@ class Reader {
       }
     }
     if (!known || numbers.empty()) {
-      json_.fail(place, {"cell", "none", "numbers called vertices, grid or row", {}});
+      json_.fail(place, {"cell", "none", "a member vertices, grid or row", {}});
     }
   }
 

@@ -264,8 +264,9 @@ Input Input::open(const std::filesystem::path& whole_path, const RunContext* con
     if (!probed && storage->used >= kNulProbe) {
       probed = true;
       if (std::all_of(storage->data, storage->data + kNulProbe, [](char c) { return c == 0; })) {
-        input.fail_at_byte(0, {"not data", "a stream of NUL bytes", "data within the first MiB",
-                               "if they are intended, save them to a file first"});
+        input.fail_at_byte(
+            0, {"not data", "only NUL bytes in the first MiB of a stream", "other bytes",
+                "if the NUL bytes are intended, save them to a file first"});
       }
     }
   }

@@ -29,7 +29,9 @@ constexpr std::size_t kBufferBytes = std::size_t{1} << 16;
 [[noreturn]] void fail_replacing(const std::string& path, int error) {
   std::string why = files::reason(error);
   if (error == EBUSY || error == EPERM)
-    why += ": no new file can take its place, expected another name, or '-' redirected into it";
+    why +=
+        ": no new file can replace it, expected another name, or '-' with standard output "
+        "redirected into it";
   fail_creating(path, why);
 }
 

@@ -132,7 +132,7 @@ void gunzip_into(Buffer& bytes, const Input& input, std::size_t most) {
                          {"compressed data expand too much",
                           fmt::format("more than {} MiB", (goes_on ? stated : before) >> 20),
                           fmt::format("at most {} times {} bytes", kMostExpansion, packed.size()),
-                          "if that is right, unpack them first"});
+                          "if this size is right, unpack the data first"});
     }
     if (before >= most) {
       throw Error(ErrorKind::resource,

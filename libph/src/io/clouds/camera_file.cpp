@@ -20,7 +20,7 @@ using detail::YamlWords;
 
 constexpr Index kMostPixels = 1 << 20;  // the largest number of pixels along one axis
 constexpr std::string_view kWhatItIs =
-    "a camera_info YAML of ROS has image_width, image_height and camera_matrix";
+    "a camera_info YAML file from ROS has image_width, image_height and camera_matrix";
 
 /// The data of a calibration while its file is read.
 class CameraYaml {

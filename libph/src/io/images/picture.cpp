@@ -77,7 +77,7 @@ Image image_of(Raster raster, const Input& input, const ReadOptions& options) {
                       " takes one"});
     }
     place = 0;
-    note(options, fmt::format("{} channels, {}, that add nothing to grey: read as grey", channels,
+    note(options, fmt::format("{} channels ({}) that hold only grey: read as grey", channels,
                               kKinds[channels]));
   }
   if (raster.bits > 8 && channels == 1) return {extents, std::move(raster.samples)};

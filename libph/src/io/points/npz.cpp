@@ -184,7 +184,7 @@ Input read_npz_member(const Input& input) {
     input.fail_at_byte(member.header_at, {"compressed data expand too much",
                                           fmt::format("{} bytes in {}", member.size, member.packed),
                                           fmt::format("at most {} times as many", kMostExpansion),
-                                          "if that is right, save the array as .npy"});
+                                          "if this size is right, save the array as .npy"});
   }
   std::pmr::vector<char> bytes(memory_of(input));
   if (member.method == kStored) {

@@ -63,16 +63,16 @@ void tell_of_counts(const Input& input, const detail::TableLayout& layout, Point
   if (may_be_index && rows.rows() >= kFewest && rows.cols() > 1 && counts_rows(rows, 0)) {
     detail::note(
         options,
-        fmt::format("the first column{} counts the rows and is read as {}; {} leaves it out",
+        fmt::format("the first column{} holds row numbers and is read as {}; {} leaves it out",
                     has_name ? fmt::format(", {},", printable(layout.header.front(), 40)) : "",
                     is_image ? "values" : "a coordinate",
                     mark(Setting::columns, fmt::format("2-{}", rows.cols()))));
   }
   if (layout.header.empty() && may_be_header(rows) && begins_with_digits(input))
-    detail::note(options, fmt::format("the first row {} and is read as {}; take it out if it is a "
-                                      "header",
-                                      rows.cols() == 1 ? "is a whole number" : "counts the columns",
-                                      is_image ? "values" : "a point"));
+    detail::note(options,
+                 fmt::format("the first row {} and is read as {}; remove it if it is a header",
+                             rows.cols() == 1 ? "is a whole number" : "holds column numbers",
+                             is_image ? "values" : "a point"));
 }
 
 // Reads the numbers of a table, without an index column.

@@ -116,7 +116,7 @@ void leave_counts_out(const Input& input, const TextLines& first, const ReadOpti
     if (is_matrix(rest)) {  // mutant: guess-header
       layout.header = std::move(rest.header);
       layout.notes.push_back(fmt::format(
-          "line {} counts the columns of a symmetric matrix: a header, skipped", first.number()));
+          "line {} holds the column numbers of a symmetric matrix: skipped", first.number()));
       return;
     }
   }
@@ -126,7 +126,8 @@ void leave_counts_out(const Input& input, const TextLines& first, const ReadOpti
   rest.names_rows = true;
   if (first_column(input, rest, n).counts && is_matrix(rest)) {
     layout.names_rows = true;
-    layout.notes.emplace_back("the first column counts the rows of a symmetric matrix: left out");
+    layout.notes.emplace_back(
+        "the first column holds the row numbers of a symmetric matrix: left out");
   }
 }
 
@@ -236,7 +237,7 @@ bool leads_with_names(const Input& input, TableLayout& layout, std::string_view 
   if (is_full && layout.header[0].empty()) {
     const bool is_one = layout.unnamed() == 1;
     layout.notes.push_back(
-        fmt::format("the first {} no name, like an index of the rows: left out{}",
+        fmt::format("the first {} no name, like a row index: left out{}",
                     is_one ? "column has" : fmt::format("{} columns have", layout.unnamed()),
                     number_in(first_cell) ? way_to_take_it(input, layout) : ""));
     return true;
@@ -246,13 +247,13 @@ bool leads_with_names(const Input& input, TableLayout& layout, std::string_view 
   if (!number_in(first_cell) || is_quoted) {
     if (!is_index && !is_one_short && !(is_full && first_column(input, layout).names_columns))
       return false;
-    layout.notes.emplace_back("the first column has names of the rows: left out");
+    layout.notes.emplace_back("the first column holds row names: left out");
     return true;
   }
   if (!is_index && !is_one_short) return false;
   const std::string name = is_index ? fmt::format(", {},", printable(layout.header[0], 40)) : "";
   if (first_column(input, layout).counts) {
-    layout.notes.push_back(fmt::format("the first column{} counts the rows: left out{}", name,
+    layout.notes.push_back(fmt::format("the first column{} holds row numbers: left out{}", name,
                                        way_to_take_it(input, layout)));
     return true;
   }
@@ -333,7 +334,7 @@ TableLayout table_layout(const Input& input, const ReadOptions& options) {
     layout.columns = chosen_columns(options.columns, names, layout.width, input);
     if (!has_header && has_next && may_be_names(lines, next, layout))
       layout.notes.push_back(
-          fmt::format("line {} is read as numbers; take it out if it is a header", lines.number()));
+          fmt::format("line {} is read as numbers; remove it if it is a header", lines.number()));
     return layout;
   }
   if (has_header) layout.names_rows = leads_with_names(input, layout, first_cell(row, layout));

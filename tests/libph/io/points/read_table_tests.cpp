@@ -154,7 +154,7 @@ TEST(ReadTable, SaysWhatMayBeAHeaderOfNumbers) {
   EXPECT_TRUE(says(any("0\n0.5\n1.5\n"), "the first row is a whole number"));
   EXPECT_FALSE(says(any("0.0\n0.5\n1.5\n"), "the first row"));
   EXPECT_TRUE(says(any("0,1,2,3,4\n5,7,9,1,0.5\n", {.array = ArrayMeaning::image}),
-                   "the first row counts the columns and is read as values"));
+                   "the first row holds column numbers and is read as values"));
 }
 
 TEST(ReadTable, EmptyCellsAreMissingIfNanIsDropped) {
@@ -268,9 +268,9 @@ TEST(ReadTable, ColumnsAndRowsMayHaveNumbers) {
     EXPECT_TRUE(says(result, note)) << text;
   };
   for (const char* header : {"0,1,2\n", "1,2,3\n", "\"0\",\"1\",\"2\"\n"})
-    is_matrix(std::string(header) + "0,1,2\n1,0,3\n2,3,0\n", "line 1 counts the columns");
-  is_matrix("0,0,1,2\n1,1,0,3\n2,2,3,0\n", "first column counts the rows");
-  is_matrix("1 0 1 2\n2 1 0 3\n3 2 3 0\n", "first column counts the rows");
+    is_matrix(std::string(header) + "0,1,2\n1,0,3\n2,3,0\n", "line 1 holds the column numbers");
+  is_matrix("0,0,1,2\n1,1,0,3\n2,2,3,0\n", "first column holds the row numbers");
+  is_matrix("1 0 1 2\n2 1 0 3\n3 2 3 0\n", "first column holds the row numbers");
   EXPECT_TRUE(
       contains(bad_data([] { any("0,1,2\n1,.5,.2\n.5,1,.3\n.2,.3,1\n"); }), "from_correlation"));
   // For images and points, nothing is left out, but there is a note.
@@ -282,8 +282,8 @@ TEST(ReadTable, ColumnsAndRowsMayHaveNumbers) {
             4);
   const ReadResult three = any("0,1,2\n5,1,2\n9,7,3\n2,3,4\n");
   EXPECT_EQ(std::get<Points>(three.data).rows(), 4);
-  EXPECT_TRUE(says(three, "first row counts the columns"));
-  EXPECT_TRUE(says(any("0,1\n0.25,1.5\n"), "first row counts the columns"));
+  EXPECT_TRUE(says(three, "first row holds column numbers"));
+  EXPECT_TRUE(says(any("0,1\n0.25,1.5\n"), "first row holds column numbers"));
   EXPECT_FALSE(says(any("0,1\n5,7\n"), "first row"));
   EXPECT_EQ(std::get<Points>(any("0,0,1,2\n1,4,5,3\n2,2,3,0\n").data).cols(), 4);
 }
