@@ -65,7 +65,7 @@ def computed(function: Callable[..., Barcode], inputs: Iterable[Any], options: d
     """The barcodes that `batch` returns. `what` is the word for an input in messages."""
     if function not in _REQUESTS:
         raise _options.refuse("function", function, "rips, alpha, cubical, lower_star, filtered or "
-                              "boundary of libph")
+                              "boundary from libph")
     request_of = _REQUESTS[function]
     places, defaults = _parameters(function)
     keywords = {**defaults, **{k: v for k, v in options.items() if k in defaults}}

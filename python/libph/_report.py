@@ -72,9 +72,9 @@ class Report:
 
 
 def require_page() -> None:
-    """Raises NotBuiltIn if this build has no page of reports. Call it before the computation."""
+    """Raises NotBuiltIn if this build has no report page. Call it before the computation."""
     if not _core.has_page():
-        raise NotBuiltIn("report: this build of libph has no page of reports, because npm or its packages "
+        raise NotBuiltIn("report: this build of libph has no report page, because npm or its packages "
                          "were missing. Install Node.js with npm (Debian: apt "
                          "install npm), then install libph again (pip install .)")
 
@@ -156,8 +156,8 @@ def report_of_bars(bars: Barcode, X: Any, title: str, options: dict[str, Any]) -
     if isinstance(X, (Mesh, Simplices, Boundary)):
         kind = None
     elif kind not in _KNOWN:
-        raise UsageError(f"X: found bars of complex {kind!r}, expected a Mesh, Simplices or a "
-                         "Boundary, as ph.read gives them")
+        raise UsageError(f"X: found other data for bars of complex {kind!r}, expected a Mesh, "
+                         "Simplices or a Boundary, as ph.read returns them")
     for name, unknown in (("metric", "function"), ("weights", "given")):
         if given.get(name) == unknown and name not in options:
             raise UsageError(f"{name}: found none, expected the value with which the bars were computed")

@@ -291,7 +291,7 @@ def _period(period: Any, axes: int) -> list[float]:
     """A length for each axis, 0 for axes that are not periodic; empty if none is."""
     if period is None:
         return []
-    expected = f"a length, or one for each of {axes} axes, 0 or None for an axis that does not close up"
+    expected = f"a length, or one for each of {axes} axes, with 0 or None for an axis that is not periodic"
     if isinstance(period, (str, bytes)) or np.ndim(period) > 1:
         raise _options.refuse("period", period, expected)
     given = [period] * axes if np.ndim(period) == 0 else list(period)

@@ -65,7 +65,7 @@ def p_values(bars: Barcode | ArrayLike, dim: int | None = None, *, filtration: s
             filtration = "cech"
         if filtration is None and kind != "rips":
             raise UsageError(f"filtration: found None, expected 'rips' or 'cech' for bars of "
-                             f"complex {kind!r}; images have no such test")
+                             f"complex {kind!r}; the test is not defined for images")
     else:
         if dim is not None:
             raise UsageError("dim: does nothing for arrays, expected a Barcode")
@@ -161,8 +161,8 @@ class Band(NamedTuple):
         matplotlib.axes.Axes
         """
         if np.ndim(self.mean) > 2:
-            raise UsageError(f"plot: found functions of shape {np.shape(self.mean)}, expected rows "
-                             "of numbers, one for each point of a grid")
+            raise UsageError(f"plot: found functions of shape {np.shape(self.mean)}, expected a "
+                             "number for each grid point, or one row of such numbers per layer")
         mean, lower, upper = (np.atleast_2d(part) for part in self)
         row = _options.whole("layer", layer, 0, len(mean) - 1)
         places = np.arange(mean.shape[1]) if grid is None else \
@@ -213,7 +213,7 @@ def confidence_band(functions: ArrayLike, *, alpha: float = 0.05, repetitions: i
     array = _arrays.as_float64(_arrays.as_array(functions, "functions"), "functions")
     if array.ndim < 2 or len(array) < 2:
         raise UsageError(f"functions: found an array of shape {array.shape}, expected at least two "
-                         "samples along the first axis, and numbers along others")
+                         "samples along the first axis, and at least one more axis")
     if not np.isfinite(array).all():
         where = tuple(int(i) for i in np.argwhere(~np.isfinite(array))[0])
         raise DataError(f"functions: {_arrays.place_of(where)}: found {array[where]}, expected a "

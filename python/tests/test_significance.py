@@ -42,7 +42,8 @@ def test_p_values_of_barcodes(rng):
                        (lambda: ph.p_values(bars.dgm(1)), "filtration"),
                        (lambda: ph.p_values(bars.dgm(1), 1, filtration="rips"), "dim"),
                        (lambda: ph.p_values(bars, 1, filtration="alpha"), "filtration"),
-                       (lambda: ph.p_values(ph.cubical(np.eye(5)), 1), "images have no such test")):
+                       (lambda: ph.p_values(ph.cubical(np.eye(5)), 1), "the test is not defined for "
+                        "images")):
         with pytest.raises(ph.UsageError, match=text):
             call()
     with pytest.raises(ph.DataError, match="born at 0"):

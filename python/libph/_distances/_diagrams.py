@@ -46,14 +46,14 @@ def _rows(bars: Any, name: str, dim: int | None) -> NDArray[np.float64]:
         for row in bars:
             if isinstance(row, np.ndarray) and row.ndim == 2:
                 raise UsageError(f"{name}: found a list of arrays, expected one array of rows "
-                                 f"birth, death; {name}[1] has the rows of H1")
+                                 f"(birth, death); {name}[1] has the rows of H1")
             if isinstance(row, tuple) and len(row) == 2 and isinstance(row[1], tuple):
                 raise UsageError(f"{name}: found pairs (dimension, (birth, death)), expected rows "
-                                 "birth, death, of one dimension")
+                                 "(birth, death) of a single dimension")
     array = _arrays.as_array(bars, name)
     if array.size == 0:
         return np.empty((0, 2))
     if array.ndim != 2 or array.shape[1] != 2:
-        raise UsageError(f"{name}: found an array of shape {array.shape}, expected rows birth, "
-                         "death")
+        raise UsageError(f"{name}: found an array of shape {array.shape}, expected rows "
+                         "(birth, death)")
     return _arrays.as_float64(array, name)

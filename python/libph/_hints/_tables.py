@@ -92,7 +92,7 @@ SKLEARN = _table(
     ("PairwiseDistance BottleneckDistance WassersteinDistance SlicedWassersteinDistance",
      "use DiagramDistances"),
     ("HeatKernel Scaler Filtering",
-     "giotto-tda has it, and takes what output='giotto' gives"),
+     "giotto-tda has it, and accepts the results of output='giotto'"),
 )
 
 # Names of keywords in other packages. The key is the equivalent keyword of libph.

@@ -83,7 +83,7 @@ class ImagePart(Part):
         _run.check_names("barcode", run, self.barcode)
         meta = self._meta()
         given: list[Barcode] = [] if loops is None else _options.several(
-            "loops", loops, "what ImageLoops.barcode gives for each part")
+            "loops", loops, "the results of ImageLoops.barcode for all parts")
         self._check_loops(given)
         field = given[0].meta["field"] if given else 2
         bars = _run.run(_core.image_part_bars, self._bytes, [bars._bars for bars in given], field,
@@ -101,8 +101,8 @@ class ImagePart(Part):
         message was lost."""
         for bars in loops:
             if not isinstance(bars, Barcode) or "messages_sent" not in bars.meta:
-                raise UsageError(f"loops: found {type(bars).__name__}, expected what "
-                                 "ImageLoops.barcode gives")
+                raise UsageError(f"loops: found {type(bars).__name__}, expected a result "
+                                 "of ImageLoops.barcode")
         if not self.has_loops:
             if loops:
                 raise UsageError("loops: found loops, expected none for an image without loops")
@@ -121,8 +121,8 @@ class ImagePart(Part):
         sent, received = (sum(bars.meta[name] for bars in loops)
                           for name in ("messages_sent", "messages_received"))
         if sent != received:
-            raise DataError(f"loops: found {received} messages received, expected the {sent} that "
-                            "were sent")
+            raise DataError(f"loops: found {received} received messages, expected {sent}, the "
+                            "number of sent messages")
 
     def __repr__(self) -> str:
         return f"ImagePart({self._words()}, shape={self.shape}, {len(self._bytes)} bytes)"

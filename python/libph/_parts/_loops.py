@@ -81,7 +81,7 @@ class ImageLoops:
         self._field = _options.whole("field", field, 2, 2**31 - 1)
         held, part._held = part._held, None
         if held is None:
-            found = "one that has lent its voxels, or was sent or joined" if part.has_loops else \
+            found = "one that was already used, sent or joined" if part.has_loops else \
                 "one without loops"
             raise UsageError(f"part: found {found}, expected an unused result of "
                              "image_part(…, loops=True) that has loops")

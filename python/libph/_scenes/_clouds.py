@@ -35,7 +35,7 @@ def scene_of(data: Any, *, colours: Any, intrinsics: Any, camera: Any, depth_sca
         if not is_path:
             return Scene(_cloud(data, colours, run), name, False)
         if colours is not None:
-            raise UsageError("colours: does nothing for a file of a cloud, which has its own")
+            raise UsageError("colours: does nothing for a cloud file, whose own colours are read")
         return Scene(_run.run(_core.read_scene, path_of(data, "cloud"), options=run), name, False)
     seen_by = _camera(intrinsics, camera, run)
     scale = None if depth_scale is None else _scale(depth_scale)

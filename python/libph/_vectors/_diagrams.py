@@ -21,8 +21,8 @@ def as_diagram(data: Any, name: str) -> Diagram:
     if array.size == 0 and array.ndim < 3:
         return np.empty((0, 2))
     if array.ndim != 2 or array.shape[1] != 2:
-        raise UsageError(f"{name}: found an array of shape {array.shape}, expected rows birth, "
-                         "death")
+        raise UsageError(f"{name}: found an array of shape {array.shape}, expected rows "
+                         "(birth, death)")
     dgm = _arrays.as_float64(array, name)
     wrong = ~(dgm[:, 0] <= dgm[:, 1])
     if wrong.any():
@@ -57,7 +57,7 @@ def settled(dgm: Diagram, infinity: Infinity, name: str) -> Diagram:
         return dgm
     if infinity == "error":
         raise UsageError(f"{name}: row {int(np.argmax(endless))}: found a bar that never dies; "
-                         "infinity='drop' leaves such bars out, infinity=NUMBER is their death")
+                         "infinity='drop' leaves such bars out, infinity=NUMBER sets their death")
     if infinity == "drop":
         kept: Diagram = dgm[~endless]
         return kept

@@ -91,7 +91,7 @@ if not TYPE_CHECKING:  # hidden from type checkers, which then report missing na
         """Loads a drop-in on first use."""
         if name in _DROP_INS:
             return importlib.import_module(f"{__name__}.{name}")
-        raise AttributeError(f"libph.compat has no {name!r}; there are {', '.join(_DROP_INS)}")
+        raise AttributeError(f"libph.compat has no {name!r}; it has {', '.join(_DROP_INS)}")
 
     def __dir__():
         return [*__all__, *_DROP_INS]

@@ -79,8 +79,8 @@ def _rows(dgm: ArrayLike, name: str) -> NDArray[np.float64]:
     if rows.size == 0:
         return np.empty((0, 2))
     if rows.ndim != 2 or rows.shape[1] < 2:
-        raise UsageError(f"{name}: found an array of shape {rows.shape}, expected rows birth, "
-                         "death")
+        raise UsageError(f"{name}: found an array of shape {rows.shape}, expected rows "
+                         "(birth, death)")
     return rows
 
 

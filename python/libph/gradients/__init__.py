@@ -168,9 +168,9 @@ def _values_of(bars: Any, X: Any, weights: Any) -> CellValues:
     elif kind == "explicit" and bars._bars.cell_kind == "row":
         values = StarValues(X, None)
     else:
-        raise UsageError(f"bars: found a barcode of the complex {kind!r}, expected one that rips, "
-                         "cubical, lower_star or boundary computed: the values of its cells are not "
-                         "known as functions of X")
+        raise UsageError(f"bars: found a barcode of the complex {kind!r}, expected one from rips, "
+                         "cubical, lower_star or boundary, because the cell values of other "
+                         "complexes are not known as functions of X")
     for is_death, stated in ((False, bars.births), (True, bars.deaths)):
         for dim, places, cells in _cells_of(bars, is_death):
             values.compare(dim, cells, stated[places], "death" if is_death else "birth")

@@ -13,7 +13,7 @@ from .._errors import UsageError
 from .._vectors import Diagram, as_diagram
 
 _EXPECTED = ("expected a list with an entry for each sample: a diagram, a list of diagrams or a "
-             "Barcode; or an array (samples, bars, 3) of rows birth, death, dimension")
+             "Barcode; or an array (samples, bars, 3) of rows (birth, death, dimension)")
 
 
 class Samples(NamedTuple):

@@ -75,7 +75,7 @@ BAD = [
     ("a sparse image", ph.cubical, (sparse.eye(3),), {}, ".toarray()"),
     ("an image without voxels", ph.cubical, (np.zeros((3, 0)),), {}, "0"),
     ("a signal without values", ph.cubical, (np.zeros(0),), {}, "0"),
-    ("one number as a diagram", ph.bottleneck, ([1.0], [[0, 1]]), {}, "rows birth, death"),
+    ("one number as a diagram", ph.bottleneck, ([1.0], [[0, 1]]), {}, "rows (birth, death)"),
     ("three columns of a kernel's diagram", ph.diagram_kernels, ([np.zeros((2, 3))],), {}, "(2, 3)"),
     ("a text as diagrams", ph.diagram_kernels, ("abc",), {}, "diagrams: found 'abc', expected a list"),
     ("an Euler curve without voxels", ph.euler_curve, (np.zeros((3, 0)),), {}, "0"),

@@ -242,7 +242,7 @@ def test_drop_leaves_out_what_begins_at_minus_infinity(tmp_path):
     ([[1, 0]], "row 0: found birth 1.0 and death 0.0, expected birth <= death"),
     ([[0, 1], [np.nan, 1]], "row 1: found birth nan"),
     ([[-np.inf, 1]], "row 0: found birth -inf, expected a finite number"),
-    ([[0, 1, 2]], r"found an array of shape \(1, 3\), expected rows birth, death"),
+    ([[0, 1, 2]], r"found an array of shape \(1, 3\), expected rows \(birth, death\)"),
     ([0, 1], r"found an array of shape \(2,\)"),
 ])
 def test_what_is_no_diagram(data, words):

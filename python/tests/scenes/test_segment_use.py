@@ -139,7 +139,7 @@ DEPTH = np.full((20, 30), 0.5)
      "colours: found 'c.png', expected an array"),
     ("", {}, ph.UsageError, "cloud: found ''"),
     ("no/such/file.pcd", {}, ph.MissingInputError, "no/such/file.pcd"),
-    (TABLE, {"colours": CLOUD}, ph.UsageError, "colours: does nothing for a file of a cloud"),
+    (TABLE, {"colours": CLOUD}, ph.UsageError, "colours: does nothing for a cloud file"),
     (None, {}, ph.UsageError, "cloud: found NoneType"),
 ], ids=str)
 def test_what_is_wrong_is_said(data, options, error, words):

@@ -83,4 +83,4 @@ def _check_width(X: Any, Y: Any) -> None:
         array = _arrays.as_array(dgm, name)
         if array.shape != (0,) and (array.ndim != 2 or array.shape[1] != 2):
             raise _WidthError(f"{name}: found an array of shape {array.shape}, expected rows "
-                              "birth, death")
+                              "(birth, death)")
