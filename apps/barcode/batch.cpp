@@ -103,7 +103,7 @@ void require_separate(const app::InputFiles& inputs, const std::vector<app::Writ
   if (job.results.dry_run)
     session.note("--force does nothing: --dry-run writes no file");
   else
-    session.explain("--force: not needed, no output is an input");
+    session.explain("--force: not needed, because no output is an input");
 }
 void require_separate(const std::vector<Places>& all, const Job& job, app::Session& session) {
   app::InputFiles inputs;

@@ -47,15 +47,13 @@ void explain_slabs(const BuiltComplex& built, const RunPlan& plan, const Job& jo
   };
   const Engine engine = plan.options.engine;
   if (facts_of(engine).listed_dim(0) >= 0)
-    does_nothing(fmt::format("engine {} takes all layers at once", engine.name()));
+    does_nothing(fmt::format("engine {} processes all layers at once", engine.name()));
   else if (job.question.options.representatives != Representatives::none)
     does_nothing("representatives need all layers at once");
   else if (!cubical::can_be_cut(cubical->cubical_image(),
                                 {job.question.options.min_dim, *plan.options.max_dim}))
     does_nothing(cubical->cubical_image().extents.size() > 3
-                     ? "with four axes or more, bars of dimensions between 0 and "
-                       "the highest but one "
-                       "need all layers at once"
+                     ? "with n >= 4 axes, bars of dimensions 1 to n - 2 need all layers at once"
                      : "no axis has more than one voxel");
   else
     session.explain(
@@ -71,8 +69,9 @@ std::vector<std::string> pictures_of_tree(const Loaded& loaded, const Job& job,
   if (!tree)
     throw Error(ErrorKind::usage,
                 fmt::format("--plot-kind tree: {} has no merge tree: expected no sample, no "
-                            "approximation, --construction vertices, no --threshold on "
-                            "simplices, boundary matrices or meshes, and at most {} voxels",
+                            "approximation and no periodic space; for images, --construction "
+                            "vertices and at most {} voxels; for simplices, boundary matrices and "
+                            "meshes, no --threshold",
                             loaded.name, report::kMostTreeVoxels));
   const MemoryClaim claim(context.memory, tree->births.size() * sizeof(Branch));
   const std::vector<Branch> branches = tree->branches();

@@ -51,7 +51,7 @@ class Run {
                           app::count_of(files_.size(), "barcode"));
     if (arguments.common.threads > 0 && files_.size() == 2 &&
         arguments.distance.kind != app::DistanceKind::sliced)
-      session.note("--threads does nothing: one thread computes the distance of two barcodes");
+      session.note("--threads does nothing: one thread computes the distance between two barcodes");
     require_separate();
     if (arguments.writes_table()) {
       const std::string path = arguments.output_path();
@@ -111,7 +111,7 @@ class Run {
     if (!arguments_.matrix.empty()) outputs.push_back({"--matrix", arguments_.matrix});
     const bool replaces = app::require_separate(inputs, outputs, arguments_.common.force);
     if (!replaces && arguments_.common.force)
-      session_.explain("--force: not needed, no output is an input");
+      session_.explain("--force: not needed, because no output is an input");
   }
 
   /// @throws Error (usage) if there are several dimensions and a matrix is requested.

@@ -59,7 +59,7 @@ void require_separate(const Arguments& a, app::Session& session) {
   // mutant: file-table
   if (prints(a)) outputs.push_back({a.explain ? "--explain" : "the table", "-"});
   if (!app::require_separate(inputs_of(a), outputs, a.common.force) && a.common.force)
-    session.explain("--force: not needed, no output is an input");
+    session.explain("--force: not needed, because no output is an input");
 }
 
 /// Segments the cloud. If memory does not suffice, the error also names the options that help,
@@ -144,7 +144,7 @@ Result result_of(const Arguments& arguments, const std::optional<Plane>& plane_g
   input.reset();
   stop_reading();
   if (arguments.allow_empty && result.cloud->size() > 0)
-    session.explain("--allow-empty: not needed, the cloud has points");
+    session.explain("--allow-empty: not needed, because the cloud has points");
   outputs.require_suitable(result.cloud->height);
   SegmentOptions options = arguments.options;
   options.plane_guess = plane_guess;

@@ -69,7 +69,7 @@ class Stream {
     }
     if (json_) json_->commit();
     if (arguments_.common.force && !replaces_input_)
-      session_.explain("--force: not needed, no output is an input");
+      session_.explain("--force: not needed, because no output is an input");
     report_throughput();
     return first_failure_;
   }

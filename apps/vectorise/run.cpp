@@ -44,8 +44,8 @@ class Run {
     Table table = fit_.kind == Kind::euler ? euler_curves() : vectors();
     if (dropped_ > 0)
       session_.note(
-          fmt::format("left out: {} without a finite birth and death; --infinite T gives "
-                      "an end to those that never die",
+          fmt::format("left out: {} without a finite birth and death; --infinite T sets "
+                      "the death of bars that never die",
                       app::count_of(dropped_, "bar")));
     const app::BarHold results_are_written(session_);
     write_table(output_->file(), table, arguments_.written_format(), files_, names_of(fit_));
@@ -71,7 +71,7 @@ class Run {
     if (!arguments_.fit.empty()) outputs.push_back({"--fit", arguments_.fit});
     const bool replaces = app::require_separate(inputs, outputs, arguments_.common.force);
     if (!replaces && arguments_.common.force)
-      session_.explain("--force: not needed, no output is an input");
+      session_.explain("--force: not needed, because no output is an input");
   }
 
   Table new_table() const {

@@ -170,8 +170,7 @@ class Builder {
                                                 *options.threshold));
     if (!wanted.max_dim && wanted.min_dim > 1)
       throw Error(ErrorKind::usage, fmt::format("--min-dim: found {}, expected at most 1, the "
-                                                "highest dimension computed for a Rips complex "
-                                                "unless --max-dim is given",
+                                                "default of --max-dim for a Rips complex",
                                                 wanted.min_dim));
     const Index size = size_of(data);
     if (options.dtm_neighbours && size > 0 && *options.dtm_neighbours > size)
@@ -320,7 +319,7 @@ std::optional<std::string> promise_of(const BuiltComplex& built, const RunFacts&
     const double late = 2 * sample->covering_radius;
     text = fmt::format(
         "{} of {} points, covering radius {}: bars longer than {} are real, and their births and "
-        "deaths are at most this much too late",
+        "deaths are too late by at most the same amount",
         sample->points, sample->of, shortest(sample->covering_radius), shortest(late));
   }
   if (const auto& epsilon = rips->options().approximation; epsilon && facts.edges) {

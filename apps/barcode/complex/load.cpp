@@ -140,7 +140,7 @@ Loaded load(const Job& job, std::optional<Input>& input, app::Session& session, 
       is_shown ? build_complex(read, name, dropped, job, session.context())
                : build_complex(std::move(data.read), name, dropped, job, session.context());
   if (job.reading.options.allow_empty && !built.empty)
-    session.explain("--allow-empty: not needed, the input is not empty");
+    session.explain("--allow-empty: not needed, because the input is not empty");
   const auto* const cubical = std::get_if<Cubical>(&built.complex);
   if (cubical && cubical->cubical_image().extents.size() == 1 && is_given(job, "construction") &&
       job.question.options.representatives == Representatives::none)

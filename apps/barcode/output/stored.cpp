@@ -82,7 +82,7 @@ DistanceFormat distance_format(const Job& job) {
   if (job.results.output_format)
     throw Error(ErrorKind::usage,
                 fmt::format("--output-format: found {}, expected csv, json or none with --compare; "
-                            "without it, distances are text",
+                            "by default, distances are text",
                             barcode_format_name(*format)));
   throw Error(ErrorKind::usage,
               fmt::format("--output: found {}, expected FILE.csv or FILE.json with --compare; "

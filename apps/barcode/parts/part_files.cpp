@@ -50,7 +50,7 @@ std::optional<std::vector<std::byte>> kept_part_file(const std::string& path,
   std::error_code error;
   const auto written = std::filesystem::last_write_time(files::path_of(path), error);
   if (error) {
-    session.note(fmt::format("--resume: not needed, {} does not exist", path));
+    session.note(fmt::format("--resume: not needed, because {} does not exist", path));
     return std::nullopt;
   }
   for (const std::string& input : inputs) {

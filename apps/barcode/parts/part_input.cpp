@@ -37,7 +37,7 @@ PartInput read_part_input(const std::string& input, bool keeps_cells, const Job&
                     why, data.read.description));
   session.explain(fmt::format("read {}: {}", data.name, data.read.description));
   if (job.reading.options.allow_empty)
-    session.explain("--allow-empty: not needed, the input is not empty");
+    session.explain("--allow-empty: not needed, because the input is not empty");
   for (const Message& note : data.read.notes)
     session.note(fmt::format("{}: {}", data.name, note.marked()));
   if (const int layers = job.common.slab_layers; layers > 0)

@@ -37,7 +37,8 @@ std::vector<Index> shared_out(const PartInput& input, int parts, Post& post,
   if (is_unequal(forecast)) {
     layers = forecast.first_layers;
     session.explain(fmt::format(
-        "ranks begin with layers {}: otherwise the slowest rank would take {:.1f} times the mean",
+        "the ranks begin with layers {}: otherwise the slowest rank would take {:.1f} times the "
+        "mean time",
         fmt::join(layers, ", "), forecast.longest));
   }
   ByteWriter to;

@@ -106,8 +106,8 @@ std::vector<Bar> bars_of(const Fit& fit, std::span<const Bar> bars, std::string_
         throw Error(
             ErrorKind::bad_data,
             fmt::format("{}: found a bar [{}, {}) of H{}, expected finite bars; --infinite "
-                        "drop leaves all others out, --infinite T gives an end to bars that "
-                        "never die",
+                        "drop leaves out all other bars, --infinite T sets the death of bars "
+                        "that never die",
                         name, bar.birth, bar.death, bar.dim));
   try {
     if (fit.infinite.rule == Rule::keep) {

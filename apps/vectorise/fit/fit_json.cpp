@@ -109,7 +109,7 @@ class Reader {
     json_.expect_end();
     if (!has_format || !has_kind || fit_.blocks.empty())
       input_.fail({"not a fit",
-                   "a missing member",
+                   "an incomplete object",
                    R"("format": "ph-vectorise fit", "kind" and "blocks")",
                    {}});
     for (const char* const parameter : parameters_of(fit_.kind))

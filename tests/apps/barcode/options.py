@@ -372,7 +372,7 @@ class Options(ProgramTest):
         self.assertNotIn("does nothing",
                          self.expect(0, "row.npy", "--slab-layers", "1", "--dry-run").stderr)
         self.write("four.npy", files.array((2, 2, 2, 2), range(16)))
-        self.assertIn("--slab-layers does nothing: with four axes or more, bars of dimensions between",
+        self.assertIn("--slab-layers does nothing: with n >= 4 axes, bars of dimensions 1 to n - 2",
                       self.expect(0, "four.npy", "--slab-layers", "1", "--dry-run").stderr)
         self.assertNotIn("does nothing", self.expect(0, "four.npy", "--slab-layers", "1",
                                                      "--max-dim", "0", "--dry-run").stderr)

@@ -232,7 +232,7 @@ class Overwrites(FolderTest):
 
     def test_force_is_not_needed(self):
         self.scene("s.pcd", "t.pcd")
-        said = "--force: not needed, no output is an input"
+        said = "--force: not needed, because no output is an input"
         for outputs, needed in ((["--json", "x.json"], False), (["-o", "out/"], False),
                                 (["-o", "./"], True), (["--json", "s.pcd"], True)):
             run = self.run_in_folder(SEGMENT, "s.pcd", "t.pcd", *outputs, "--force", "--verbose")
