@@ -80,7 +80,7 @@ namespace {
 
 /// Lists the cells of a Delta-complex with their boundaries. The sites of a cell ascend, but the
 /// input points of these sites need not. Chains list the input points of each cell in ascending
-/// order; boundaries are therefore given for cells with their points in this order.
+/// order, and the incidences in the boundaries refer to this order.
 class CellList {
  public:
   CellList(const AlphaCells& cells, const Enters& enters, SimplexList& vertices,
@@ -193,7 +193,7 @@ class CellList {
   SimplexList& vertices_;
   Ticker ticker_;
   BoundaryMatrix matrix_;
-  // For each row: true if sorting the points was an odd permutation.
+  // For each row: true if the permutation that sorted the points is odd.
   std::pmr::vector<bool> is_turned_;
   // The rows of the vertices, indexed by site; of the edges, indexed by number; and of the facets,
   // indexed by usual name.

@@ -77,8 +77,8 @@ AlphaCells alpha_cells(PointsView points, std::span<const double> weights,
 namespace {
 
 /// Checks that two kinds of squares are within the range of doubles: the squares of coordinates
-/// below 2^exponent, and the squares of the last places of such coordinates. @throws Error
-/// (bad_data) if they are not within this range.
+/// below 2^exponent, and the squares of the units in the last place of such coordinates. @throws
+/// Error (bad_data) if they are not within this range.
 void check_squares(int exponent) {
   // The lower limit is 2^-916 for squares, which leaves room for 106 more binary places.
   constexpr int most = 511, least = -458;

@@ -79,7 +79,7 @@ ph_status guarded(Use&& use) noexcept {
     return fail(status_of(error.kind()), error.what());
   } catch (const std::bad_alloc&) {
     return fail(PH_RESOURCE, "out of memory");
-  } catch (const std::length_error&) {  // the size exceeds any memory
+  } catch (const std::length_error&) {  // the size is beyond the limit of a container
     return fail(PH_RESOURCE, "out of memory");
   } catch (const std::system_error& error) {  // thrown by std::async
     return fail(PH_RESOURCE, error.what());

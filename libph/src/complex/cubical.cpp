@@ -204,8 +204,8 @@ void Cubical::spread_keys(std::pmr::vector<std::uint32_t>& keys, const Axis& axi
   const std::uint64_t last = axis.length - 1, slab = axis.stride * axis.length;
   for (std::uint64_t first = 0; first < keys.size(); first += slab) {
     for (std::uint64_t x = voxels_are_vertices ? 1 : 0; x <= last; x += 2) {
-      // These are the layers below and above along the axis. At the border of a T-construction,
-      // only one of them exists.
+      // Layer x of the axis has a layer below it and a layer above it. At the border of a
+      // T-construction, only one of the two exists.
       const bool has_lower = x > 0 || axis.periodic, has_upper = x < last || axis.periodic;
       // mutant: cubical-wrap
       const std::uint64_t below = x > 0 ? x - 1 : last, above = x < last ? x + 1 : 0;

@@ -93,7 +93,7 @@ InputChain Barcode::representative(std::size_t i) const {
 // Without cells, equal bars are interchangeable. Each run of equal births can therefore be sorted
 // by death in place.
 void Barcode::sort_values(const RunContext& context) {
-  std::pmr::vector<Bar> buffer(&context.memory);  // the buffer takes memory only if it is used
+  std::pmr::vector<Bar> buffer(&context.memory);  // the buffer allocates memory only if it is used
   const auto sort_by = [&](std::span<Bar> bars, auto&& value_of) {
     if (std::ranges::is_sorted(bars, {}, value_of)) return;
     // The bars of the highest dimension of an image arrive in descending order.

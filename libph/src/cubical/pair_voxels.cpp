@@ -19,7 +19,7 @@ namespace ph::cubical {
 namespace {
 
 // For each voxel, either a star and a node of a graph are stored, or two ranks. Each of these four
-// takes 4 bytes.
+// numbers takes 4 bytes.
 constexpr double kBytesOfVoxel = 8;
 
 bool has_few_axes(const CubicalImage& grid) { return GridShape::count_axes(grid) <= 3; }
@@ -114,7 +114,7 @@ bool fits(const CubicalImage& voxels, const RunContext& context) {
   constexpr double least = kBytesOfVoxel, most = 168, per_cell = 64;
   const LayeredImage image(voxels);
   const auto size = static_cast<double>(image.size());
-  // Pages of a file that have been read also take memory.
+  // Pages of a file that have been read also occupy memory.
   const double in_file = voxels.is_in_file ? static_cast<double>(bytes_of(voxels.type)) : 0;
   const double left = static_cast<double>(context.memory.left()) - in_file * size;
   if (most * size < left) return true;

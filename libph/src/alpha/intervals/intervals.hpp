@@ -116,10 +116,10 @@ struct AlphaCells {
 AlphaCells alpha_cells(PointsView points, std::span<const double> weights,
                        std::span<const double> period, const RunContext& context);
 
-/// The value of a facet, given by either of its names. Takes O(log n) for n critical facets.
+/// The value of a facet, given by either of its names. Takes O(log n) time for n critical facets.
 double facet_value(const AlphaCells& cells, std::uint32_t code);
-/// The value of a facet. Takes O(1). @param critical the entry of a critical facet; null for any
-/// other facet.
+/// The value of a facet. Takes O(1) time. @param critical the entry of a critical facet; null for
+/// any other facet.
 double facet_value(const AlphaCells& cells, std::uint32_t code, const CriticalFacet* critical);
 /// The entry of the facet with this name, or null if it is not critical.
 const CriticalFacet* critical_facet(const AlphaCells& cells, std::uint32_t code);
@@ -131,15 +131,16 @@ class Frames;
 void find_intervals_of_space(AlphaCells& cells, const Frames& frames, const RunContext& context);
 void find_intervals_of_plane(AlphaCells& cells, const Frames& frames, const RunContext& context);
 
-/// Rounding may give an interval a smaller value than one of its faces. Raises such an interval to
-/// the value of that face, and repeats this until no such interval is left.
+/// Because of rounding, the value of an interval may be smaller than the value of a face of its
+/// simplices. Raises such an interval to the value of the face, and repeats this until no such
+/// interval is left.
 void make_monotone(AlphaCells& cells, const Frames& frames, const RunContext& context);
 
 /// Asserts the lemmas behind the pairing in builds with assertions. The function does nothing in
-/// other builds. The lemmas are: each simplex lies in exactly one interval, by exact signs, and has
-/// the value of that interval; no face has a larger value than a coface; the Euler characteristic
-/// is 1, both for all simplices and for the critical simplices. Triangulations of more than 20 000
-/// cells are not checked, because a check takes ten times as long as everything else.
+/// other builds. The lemmas are: exact signs put each simplex into exactly one interval, whose
+/// value it has; no face has a larger value than a coface; the Euler characteristic is 1, both for
+/// all simplices and for the critical simplices. Triangulations of more than 20 000 cells are not
+/// checked, because a check takes ten times as long as everything else.
 void check_lemmas(const AlphaCells& cells);
 
 }  // namespace ph::alpha

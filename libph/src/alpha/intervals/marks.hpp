@@ -46,7 +46,8 @@ class FacetPieces {
   std::pmr::vector<std::pmr::vector<CriticalFacet>> pieces_;
 };
 
-/// Values and pairs of vertices. With weights, some vertices are late: they enter with an edge.
+/// The values and the pairs of vertices. If the points have weights, some vertices are *late*: such
+/// a vertex enters together with an edge.
 class VertexIntervals {
  public:
   VertexIntervals(AlphaCells& cells, const RunContext& context)
@@ -67,7 +68,7 @@ class VertexIntervals {
     cells_.vertex_values[v] = value;
     cells_.vertex_facet[v] = facet;
   }
-  /// Sets the values of all other vertices, which enter alone.
+  /// Sets the values of the vertices that are not late; these vertices enter alone.
   void finish() {
     for (std::size_t v = 0; v < cells_.vertex_values.size(); ++v) {
       assert(is_late_[v] == (cells_.vertex_up[v] != kCritical));

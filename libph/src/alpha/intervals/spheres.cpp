@@ -139,7 +139,7 @@ double Spheres::triangle_radius(uint32_t a, uint32_t b, uint32_t c) const {
   }
   const double U = uu + (sites_.weights[a] - sites_.weights[b]);
   const double V = vv + (sites_.weights[a] - sites_.weights[c]);
-  // The norm of a difference of vectors is squared here. A difference of numbers as large as U² vv
+  // Squares the norm of a difference of vectors. Subtracting numbers as large as U² vv instead
   // would lose too many digits.
   const P n = U * v - V * u;
   return dot(n, n) / (4 * area) - sites_.weights[a];

@@ -14,7 +14,7 @@
 
 namespace ph::alpha {
 
-/// A simplex by its sites, in ascending order.
+/// A simplex, given by its sites in ascending order.
 struct Simplex {
   std::array<std::uint32_t, 4> sites{kNone, kNone, kNone, kNone};
   std::size_t size = 0;

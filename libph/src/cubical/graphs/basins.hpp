@@ -73,7 +73,7 @@ class Basins {
   std::uint32_t basin_of(std::uint32_t node) { return forest_.number_of_root(forest_.find(node)); }
 
  private:
-  // Joins the nodes that are connected because a voxel never enters.
+  // A voxel that never enters connects nodes that were always there. Joins these nodes.
   void join_outer_nodes() {
     Ticker ticker(context_, "holes", grid_.size());
     for (std::uint32_t v = 0; v < grid_.size(); ++v) {

@@ -40,8 +40,8 @@ class TopNodes {
   std::uint32_t outside(int part) const { return count_ + static_cast<std::uint32_t>(part); }
   /// True if nodes other than the outside were always there.
   bool has_outer_nodes() const { return !grid_.is_t_construction() && !grid_.all_enter(); }
-  /// Calls `use(node)` for the nodes that are connected because a voxel never enters, which are all
-  /// top cells around the voxel.
+  /// Calls `use(node)` for all top cells around a voxel that never enters. These nodes are
+  /// connected.
   template <class Use>
   void for_each_outer_node(std::uint32_t v, Use&& use) const;
   /// The nodes that a slab shares with the preceding or the following slab, as in VoxelNodes. They

@@ -12,14 +12,14 @@ namespace ph::cubical {
 inline int lowest_dim(const GridShape& grid, const BarRequest& wanted) {
   return wanted.min_dim - static_cast<int>(grid.loop_count());
 }
-/// True if the image has at least three axes and bars are wanted that come from neither graph.
+/// True if the image has at least three axes and some of the wanted bars come from neither graph.
 inline bool wants_loops(const GridShape& grid, const BarRequest& wanted) {
   // With periodic axes, classes of any dimension may live forever.
   return grid.top_dim() >= 3 && wanted.max_dim > 0 &&
          (lowest_dim(grid, wanted) <= grid.top_dim() - 2 || grid.any_periodic());
 }
-/// True if bars are wanted from the graph that gives H0. With fewer than three axes, its result is
-/// always needed.
+/// True if bars are wanted from the graph that gives H0. With fewer than three axes, the result of
+/// this graph is always needed.
 inline bool wants_lowest(const GridShape& grid, const BarRequest& wanted) {
   return lowest_dim(grid, wanted) <= 0 || grid.top_dim() < 3;
 }

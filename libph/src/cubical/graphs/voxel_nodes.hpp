@@ -21,8 +21,8 @@ class VoxelNodes {
   std::uint32_t outside(int part) const { return grid_.size() + static_cast<std::uint32_t>(part); }
   /// True if nodes other than the outside were always there.
   bool has_outer_nodes() const { return grid_.is_t_construction() && !grid_.all_enter(); }
-  /// Calls `use(node)` for the nodes that were always there and are connected because a voxel never
-  /// enters.
+  /// A voxel that never enters connects nodes that were always there. Calls `use(node)` for these
+  /// nodes.
   template <class Use>
   void for_each_outer_node(std::uint32_t v, Use&& use) const {
     use(v);

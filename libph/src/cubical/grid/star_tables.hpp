@@ -221,7 +221,8 @@ class StarTables {
   /// the star, and is less than `cube_place_count`.
   std::uint32_t cube_place(std::uint32_t star) const {
     const unsigned c = cubes(star);
-    // Adds the index of the set of cubes among the subsets of the cubes that the squares allow.
+    // The squares determine which cubes are possible. Adds the index of the set of cubes among all
+    // subsets of the possible cubes.
     std::uint32_t place = places_begin_[squares(star)];
     int bit = 0;
     for (unsigned rest = of_squares_[squares(star)].cubes_on; rest != 0; rest &= rest - 1, ++bit)
@@ -278,7 +279,7 @@ const StarTables& star_tables(unsigned wrapped);
 /// use, because most kinds of stars never occur. Several threads may use the cache.
 class CubePairMemo {
  public:
-  /// @param is_used false if the memo will never be used; it then takes no memory.
+  /// @param is_used false if the memo will never be used; it then allocates no memory.
   CubePairMemo(const StarTables& tables, bool is_used, std::pmr::memory_resource* memory)
       : tables_(&tables), words_(is_used ? tables.cube_place_count() : 0, memory) {}
   CubePairs pair_cubes(std::uint32_t star) const {

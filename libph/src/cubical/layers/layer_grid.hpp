@@ -15,7 +15,8 @@ namespace ph::cubical {
 /// limited.
 class LayerGrid : public SlabFrame {
  public:
-  /// Precondition: can_hold(grid), more than three axes. Memory: 8 bytes per voxel.
+  /// Preconditions: can_hold(grid), and the grid has more than three axes. Memory: 8 bytes per
+  /// voxel.
   LayerGrid(const CubicalImage& grid, const RunContext& context, const SlabPlace& slab = {});
 
   /// The value of a voxel in the order of the stars (GridFrame).

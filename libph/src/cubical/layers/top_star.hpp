@@ -64,8 +64,8 @@ class TopStar {
   std::pmr::vector<std::uint8_t> is_in_;  // for each code, 1 if the cell is in the star
   std::pmr::vector<Placed> facets_, tops_;
   // For each set of sides, the tree of the top cell and the age of the tree. If all cells of a tree
-  // are in the star, its root is the youngest cell, which is the elder. Any other tree is older
-  // than the star.
+  // are in the star, its root is the youngest cell, which is the elder in this reverse order. Any
+  // other tree is older than the star.
   std::pmr::vector<std::uint32_t> same_, age_;
   std::pmr::vector<std::uint8_t> is_new_;
 };

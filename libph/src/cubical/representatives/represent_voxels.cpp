@@ -193,7 +193,7 @@ class Representing {
       ticker.tick();
       add_merge(tree, merge, [&](Rep& rep) {
         if (rep.as_set) give_set(*sets, stored, merge.dies, rep);
-        // An empty set cannot represent a hollow, which then gets a separating cycle instead.
+        // An empty set cannot represent a hollow. Such a hollow gets a separating cycle instead.
         if (rep.voxels.begin != rep.voxels.end) return;  // mutant: voxels-of-hollow
         separating().append(merge.dies, rep.chain);
       });

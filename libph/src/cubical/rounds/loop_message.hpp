@@ -57,7 +57,7 @@ class LoopMessage {
       put(pivot);
       for (const Term& term : below) put(term);
     }
-    /// The bytes added since the last call.
+    /// Returns the bytes that were added since the last call.
     std::vector<std::byte> take(std::uint64_t image, std::int32_t from, std::int32_t to) {
       ByteWriter all;
       all.put(image);

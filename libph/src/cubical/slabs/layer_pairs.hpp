@@ -14,7 +14,7 @@
 
 namespace ph::cubical {
 
-/// Finds the edges of a grid with two axes that neither graph pairs. A torus has two such edges,
+/// In a grid with two axes, finds the edges that neither graph pairs. A torus has two such edges,
 /// and their classes never die. The graph of voxels passes on the edges that do not join
 /// components. The graph of top cells later visits each of these edges. If the edge joins
 /// components there, it is in a pair.

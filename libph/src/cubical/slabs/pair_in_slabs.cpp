@@ -25,7 +25,7 @@ namespace {
 }
 
 /// Runs a task that stores the critical cells of loops. If memory runs out, the error message
-/// states that other dimensions take less memory.
+/// states that other dimensions need less memory.
 template <class Run>
 void with_loops(const GridShape& shape, Run&& run) {
   try {
@@ -50,8 +50,8 @@ void pair_in_slabs(Slabs& slabs, const K& field, const BarRequest& wanted,
                    {.vertices = loops || wants_vertices(shape, wanted),
                     .tops = loops || wants_top_cells(shape, wanted)},
                    context);
-  // Loops are abandoned if they need more than half of the remaining memory. The slabs and the
-  // other bars then do not run out of memory. The columns of loops would take more memory than the
+  // Loops are abandoned if they need more than half of the remaining memory. This keeps enough
+  // memory for the slabs and the other bars. The columns of loops would need more memory than the
   // slabs.
   const std::size_t reserve = context.memory.left() / 2;
   bool too_many_loops = false;

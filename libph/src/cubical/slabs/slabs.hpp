@@ -23,8 +23,8 @@ namespace ph::cubical {
 class Slabs {
  public:
   /// The number of layers of a slab. If the context specifies a number, that number is used.
-  /// Otherwise a slab takes at most a quarter of the memory, whatever the values of its voxels are.
-  /// A GridFrame can always hold the slab.
+  /// Otherwise a slab occupies at most a quarter of the memory, whatever the values of its voxels
+  /// are. A GridFrame can always hold the slab.
   static std::uint64_t layers_that_fit(const LayeredImage& image, const RunContext& context) {
     constexpr double bytes = 128;  // per voxel
     // The limit is a number of voxels; larger slabs are not faster.
