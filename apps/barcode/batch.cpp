@@ -140,7 +140,7 @@ void explain_unwritten(const Job& job, BarcodeFormat format, app::Session& sessi
     const Options& options = job.question.options;
     if (options.min_persistence > 0) unwritten.emplace_back("--min-persistence");
     if (job.results.loops) unwritten.emplace_back("--loops");
-    // These options affect the memory that bars take. For example, JSON needs the cells of bars.
+    // These options affect how much memory bars need. For example, JSON needs the cells of bars.
     if (job.results.output_format)
       estimated.push_back(fmt::format("--output-format {}", barcode_format_name(format)));
     if (options.min_dim > 0) estimated.emplace_back("--min-dim");

@@ -177,8 +177,8 @@ class Run {
     take_facts(loaded, estimated.built);
     explain_slabs(loaded.built, estimated, job_, session_);
     const app::BarHold results_are_written(session_);
-    // If only the estimate has listed the edges, their memory is added to the memory that was taken
-    // before.
+    // If only the estimate listed the edges, the memory of the edges is added to the memory that
+    // was in use before.
     const double held = estimated.built.edges ? estimated.bytes_held : 0;
     write_file("-", estimate_text(estimated, loaded.built, loaded.description, taken + held));
     return {app::kOk, loaded.description};

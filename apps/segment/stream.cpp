@@ -56,7 +56,7 @@ class Stream {
       if (!arguments.common.force) known_.require_other(json());
       json_.emplace(json().path);
     }
-    // There is only one copy of a long list of inputs, instead of one per frame.
+    // This avoids one copy of a long list of inputs per frame.
     one_.inputs = {};
     one_.frames_from.clear();
   }

@@ -45,9 +45,10 @@ std::optional<std::string> promise_of(const BuiltComplex& built, const RunFacts&
 /// report::whole_tree returns none. @throws Error (resource, cancelled).
 std::optional<MergeTree> tree_of(const BuiltComplex& built, const RunContext& context);
 
-/// Calls `work`, and puts the name of the input before its errors of kind bad_data. Data may be
-/// wrong in ways that no reader can detect. Examples are a point without a direction, and distances
-/// that overflow. @throws Error (bad_data) "name: …"; other errors unchanged.
+/// Calls `work`. If `work` throws an error of kind bad_data, puts the name of the input before the
+/// message. Data may be wrong in ways that no reader can detect. Examples are a point without a
+/// direction, and distances that overflow. @throws Error (bad_data) "name: …"; other errors
+/// unchanged.
 template <class Work>
 decltype(auto) in_name_of(const std::string& name, Work&& work) {
   try {

@@ -13,7 +13,7 @@ namespace ph::barcode {
 CubicalOptions cubical_options(const Job& job, const Image& image,
                                const std::vector<bool>& periodic);
 
-/// Writes these options into the origin of a barcode.
+/// Adds these options to the description of a barcode's origin.
 void describe(const CubicalOptions& options, BarcodeInfo& info);
 
 }  // namespace ph::barcode

@@ -11,7 +11,7 @@
 namespace ph::barcode {
 
 /// The output of --dry-run. @param taken the number of bytes that reading the data and building the
-/// complex took.
+/// complex used.
 std::string estimate_text(const Estimate& estimate, const BuiltComplex& built,
                           const std::string& description, double taken);
 

@@ -93,7 +93,7 @@ std::optional<report::ShownTree> tree_if_it_fits(const Shown& shown, app::Sessio
 /// Adds the distances between two barcodes, one for each dimension in which either barcode has
 /// bars.
 /// @param matched receives the numbers of the bars that are paired.
-/// @return the dimensions that would take long, such as "H1: 50000 bars".
+/// @return the dimensions that would take a long time, such as "H1: 50000 bars".
 std::vector<std::string> add_distances(report::Metadata& meta, std::span<const Barcode, 2> barcodes,
                                        std::vector<std::uint32_t>& matched, app::Session& session) {
   const Barcode &a = barcodes[0], &b = barcodes[1];

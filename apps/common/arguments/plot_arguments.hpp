@@ -41,8 +41,8 @@ std::string drawn(const Plot& plot, const What& what, const PlotOptions& options
 struct PlotLook {
   std::string option;
   bool (*fits)(const Plot& plot);
-  /// The plots that the option is meant for, such as "bars". The message that the option applies to
-  /// no plot uses this word.
+  /// A word for the plots that the option is meant for, such as "bars". It occurs in the message
+  /// that the option applies to no plot.
   std::string meant_for;
 };
 

@@ -17,7 +17,8 @@ namespace {
 namespace fs = std::filesystem;
 
 /// The harm that results from two uses of one file. Either its contents are lost, or the outputs of
-/// two writers are mixed. A pipe or a terminal has no contents to lose, but it mixes output.
+/// two writers are mixed. A pipe or a terminal has no contents to lose, but outputs can be mixed
+/// there.
 enum class Harm { lost, mixed };
 
 bool is_null_device(const files::Status& status) {
@@ -28,7 +29,7 @@ bool is_null_device(const files::Status& status) {
 std::optional<FileIdentity> identity(const std::optional<files::Status>& status, Harm harm) {
   if (!status || status->kind == files::Kind::folder) return std::nullopt;
   const bool keeps = status->kind == files::Kind::regular;
-  // Not all systems can tell other devices apart.
+  // Some systems give devices no number by which they could be told apart.
   // mutant: output-pipes
   const bool mixes = harm == Harm::mixed && status->inode != 0 && !is_null_device(*status);
   if (!keeps && !mixes) return std::nullopt;

@@ -19,7 +19,7 @@ struct Written {
 
 /// The identity of a file, independent of its name. It is the place of the file on the disk. For a
 /// file that does not exist yet, it is the nearest existing folder above the file, and the path
-/// from that folder. "-" is the destination of standard output.
+/// from that folder. "-" stands for the destination of standard output.
 struct FileIdentity {
   std::uint64_t device = 0, inode = 0;
   std::string name;  ///< the path from that folder; empty if the file exists
@@ -29,9 +29,9 @@ struct FileIdentity {
 /// The inputs of a run, which no output may replace.
 class InputFiles {
  public:
-  /// @param path as in Input::open. "-" is the source of standard input, and "FILE.npz:NAME" is a
-  /// part of FILE.npz. A path that is not a file is ignored, because an output cannot destroy its
-  /// content.
+  /// @param path as in Input::open. "-" stands for the source of standard input, and
+  /// "FILE.npz:NAME" is a part of FILE.npz. A path that is not a file is ignored, because an output
+  /// cannot destroy its content.
   void add(const std::string& path);
   /// @throws Error (usage), such as "--output: a.csv is the input ./a.csv; …".
   void require_other(const Written& output) const;

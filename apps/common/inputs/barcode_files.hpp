@@ -19,8 +19,8 @@ namespace ph::app {
 std::vector<std::string> barcode_files(const std::vector<std::string>& inputs,
                                        std::span<const std::string_view> others = {});
 
-/// Opens an input. If somebody types it at a terminal, no progress is drawn at this time. @throws
-/// Error like Input::open.
+/// Opens an input. If somebody types it at a terminal, no progress is drawn in the meantime.
+/// @throws Error like Input::open.
 Input open_input(const std::string& path, Session& session,
                  Input::Excess excess = Input::Excess::refused);
 

@@ -43,7 +43,7 @@ std::string roff(std::string_view text, bool is_typed) {
       escaped += "\\e";
     else if (c == '-' && is_typed)  // mutant: help-dash
       escaped += "\\-";
-    else if (c == '^' || c == '~' || c == '`')  // these names avoid accents
+    else if (c == '^' || c == '~' || c == '`')  // roff would print accents instead
       escaped += fmt::format("\\({}", c == '^' ? "ha" : c == '~' ? "ti" : "ga");
     else
       escaped += c;

@@ -68,7 +68,7 @@ Output::Output(Output&& other) noexcept
 Output::~Output() { forget_temporary(slot_); }
 
 void Output::commit() {
-  file_.sync();  // this may take long, and a signal may interrupt it
+  file_.sync();  // this may take a long time, and a signal may interrupt it
   {
     const SignalsWait until_named;
     file_.commit();

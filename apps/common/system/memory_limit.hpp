@@ -7,9 +7,9 @@
 namespace ph::app {
 
 /// Makes the kernel refuse memory beyond a limit. The budget of a RunContext counts only large
-/// containers. The kernel's limit bounds all other memory. An allocation beyond the limit fails
-/// with std::bad_alloc. The limit with which the process was started is never exceeded, and is
-/// restored at the end.
+/// containers. The kernel's limit also bounds all other memory. An allocation beyond the limit
+/// fails with std::bad_alloc. The limit with which the process was started is never exceeded, and
+/// is restored at the end.
 class HeapBound {
  public:
   HeapBound();
@@ -26,7 +26,7 @@ class HeapBound {
  private:
   void set(std::uint64_t limit) const;
 
-  std::optional<std::uint64_t> at_start_;  // empty if it is unknown, and there is no limit
+  std::optional<std::uint64_t> at_start_;  // empty if it is unknown; then no limit is set
   // The limit that was set, if it is lower.
   std::optional<std::uint64_t> bound_;
 };

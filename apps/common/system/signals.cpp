@@ -56,7 +56,8 @@ void on_signal(int signal) {
   errno = saved;
 }
 
-/// This signal arrives at the instruction that reads, never within a message or a system call.
+/// Handles the signal for lost pages. It arrives at the instruction that reads, never within a
+/// message or a system call.
 void on_lost_page(int signal, siginfo_t* what, void*) {
   // A bug in the program caused the signal, which then has the same effect as without a handler.
   if (what->si_code != BUS_ADRERR) {
@@ -86,7 +87,7 @@ SignalWatch::SignalWatch() {
       thread_ = std::thread([this] { watch(); });
       wake_descriptor = pipe_ends[1];
     } catch (const std::system_error&) {
-      // There is no room for a thread. Without a descriptor to wake it, the handler ends the
+      // No thread could be created. Without a thread that could be woken, the handler ends the
       // process itself.
     }
   }

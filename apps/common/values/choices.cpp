@@ -34,7 +34,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 
 std::optional<std::string_view> nearest_name(std::string_view typed,
                                              std::span<const std::string_view> names) {
-  // Nobody mistypes longer words. The limit bounds the cost.
+  // A longer word is not a mistyped name. The limit also bounds the cost of the search.
   constexpr std::size_t kLongestWord = 64;
   if (typed.empty() || typed.size() > kLongestWord) return std::nullopt;
   const auto word_of = [](std::string_view name) {

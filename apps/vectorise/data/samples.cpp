@@ -28,7 +28,8 @@ Cubical read_cubical(const Input& input, CubicalOptions cubical, const Arguments
                                                  input.name(), read.description));
   for (const Message& note : read.notes)
     session.note(fmt::format("{}: {}", input.name(), note.marked()));
-  // A barcode in NPY has the rows dim, birth, death, but nothing names these rows.
+  // The rows of a barcode in NPY consist of dim, birth and death, but the file does not name these
+  // columns.
   const bool may_be_bars = (read.format == Format::npy || read.format == Format::npz) &&
                            image->extents.size() == 2 && image->extents[1] == 3;
   if (arguments.format == InputKind::automatic && may_be_bars)

@@ -15,7 +15,7 @@ namespace {
 
 using Coordinates = std::vector<Index>;
 constexpr Index kNotThere = -1;
-// This number includes the matrix and the complex that is made from it.
+// The number of bytes per entry, for the matrix and for the complex that is made from it.
 constexpr std::size_t kBytesPerEntry = 40;
 
 /// The cubes of an image, as points of the doubled grid. The coordinate of a cube is odd along each

@@ -33,8 +33,8 @@ struct DiagramParts {
   DiagramParts(std::span<const Bar> bars, std::string_view function);
 };
 
-/// True if the infinite bars can be paired, that is, both diagrams have the same number of each
-/// kind.
+/// True if the infinite bars can be paired, that is, both diagrams have the same number of infinite
+/// bars of each kind.
 bool have_as_many_infinite(const DiagramParts& a, const DiagramParts& b);
 
 /// Pairs the infinite bars of each kind in the order of their finite ends, and appends the pairs.

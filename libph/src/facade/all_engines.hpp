@@ -10,7 +10,7 @@
 
 namespace ph::detail {
 
-/// All engines of libph. To add an engine, write its file and put it into this list.
+/// All engines of libph. To add an engine, write its file and add the engine to this list.
 using AllEngines = decltype(std::tuple_cat(
     GenericEngines{}, std::tuple<EdgeLinkEngine, BetaSkeletonEngine, GradientEngine>{}));
 

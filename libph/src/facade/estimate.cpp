@@ -32,7 +32,7 @@ std::vector<double> cells_of(const F& filtration, int top, const RunContext& con
   return cells;
 }
 
-/// The number of bytes that the complex takes while the engine runs.
+/// The number of bytes that the complex occupies while the engine runs.
 double stored_bytes(const Cubical& cubical, bool lists_cells) {
   const auto voxels = static_cast<double>(cubical.cubical_image().size());
   const auto held = static_cast<double>(cubical.voxel_bytes());
@@ -103,7 +103,8 @@ Estimate estimate_one(const Complex& complex, const Options& options, const RunC
   return e;
 }
 
-/// The estimate from the planned form of a filtration, which is made if it does not exist yet.
+/// Makes the planned form of a filtration, if it does not exist yet, and computes the estimate from
+/// it.
 Estimate estimate_built(const Rips& rips, const RunPlan& planned, const RunContext& context) {
   Estimate e;
   static_cast<RunPlan&>(e) = planned;
@@ -162,8 +163,8 @@ Estimate estimate_sampled(const Rips& rips, const Options& options, const RunCon
   return e;
 }
 
-/// False if making the edges would take long and a sample indicates that they would not fit into
-/// memory.
+/// False if making the edges would take a long time and a sample indicates that they would not fit
+/// into memory.
 bool can_be_tried(const Rips& rips, const RunContext& context) {
   constexpr double bytes_of_edge = 16;
   constexpr Index few_points = 60'000;  // computing their distances takes seconds

@@ -79,7 +79,7 @@ RipsGraph induced(const RipsGraph& graph, std::span<const std::uint32_t> vertice
 }
 
 /// The results of running the engine on a part of a complex. They are the number of cells that the
-/// engine listed, and the bytes that it took in addition to the edges, `structure` and the bars of
+/// engine listed, and the bytes that it used in addition to the edges, `structure` and the bars of
 /// H0.
 struct Pilot {
   double listed = 0, extra = 0;
@@ -247,7 +247,7 @@ MemoryForecast forecast_points(PointsView points, std::optional<double> threshol
 MemoryForecast forecast_voxels(double stored, double voxels, double cells,
                                bool with_representatives) {
   // These byte counts were measured on noise. They cover critical cells with their columns, and
-  // bars. Representatives take more memory, because their chains are long.
+  // bars. Representatives need more memory, because their chains are long.
   const double bytes_per_cell = with_representatives ? 90 : 20;
   constexpr double least_cells_per_voxel = 8;
   return {stored,

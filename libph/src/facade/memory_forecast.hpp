@@ -15,7 +15,7 @@ struct MemoryForecast {
 /// The highest dimension in which an engine lists simplices of a Rips complex.
 int listed_rips_dim(Engine engine, int max_dim);
 
-/// Forecasts the memory that computing the homology of a Rips complex takes, including the edges.
+/// Forecasts the memory that computing the homology of a Rips complex needs, including the edges.
 /// The engine is run on three small parts of the complex. The memory that it needs for them, apart
 /// from edges and bit rows or adjacency lists, is extrapolated to the entire complex.
 /// @param cells the number of cells of each dimension, up to listed_rips_dim. @param options must

@@ -23,7 +23,7 @@ using Sparse = RipsFiltration<RipsLayout::sparse, 1>;
 // time. Examples are spheres of higher dimension and distances that are not a metric.
 constexpr double kWorthwhileShare = 0.6;
 // If homology is computed only up to this dimension or a lower one, the engine is chosen without
-// the dimension of the complex, because finding that dimension takes long.
+// the dimension of the complex, because finding that dimension takes a long time.
 constexpr int kHighestByEdges = 3;
 
 /// The reason why a collapse would spoil the result, or an empty text if it would not.
@@ -213,7 +213,7 @@ struct Settled {
   }
   Options options;             // the options include the highest dimension
   FormChoice choice;           // no engine if no engine can do the task for this number of vertices
-  bool goes_by_edges = false;  // true if the plan does not depend on the edges
+  bool goes_by_edges = false;  // true if the edges do not affect the plan
 };
 
 }  // namespace

@@ -146,8 +146,8 @@ class Search {
     }
   }
 
-  /// Rounds a threshold to few digits, and keeps it if the run fits into memory. @return true if it
-  /// fits.
+  /// Rounds a threshold to a few digits, and keeps it if the run fits into memory. @return true if
+  /// it fits.
   bool try_threshold(double threshold) {
     RipsOptions changed = rips_->options();
     const std::string text = fmt::format("{:.3g}", threshold);

@@ -27,8 +27,8 @@ bool goes_by_blocks(const Input& input, Format format, const ReadOptions& option
   }
 }
 
-// The format of a text of numbers. The options decide the format. If the options do not decide it,
-// the rows do.
+// Chooses the format of a text of numbers from the options or, if they leave it open, from the
+// rows.
 Format format_of_text(const Input& input, const ReadOptions& options) {
   if (options.array == ArrayMeaning::image) {
     // Rows of two to four numbers are usually coordinates, and rarely pixels.

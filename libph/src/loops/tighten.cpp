@@ -120,7 +120,7 @@ class Tightener {
     std::ranges::stable_sort(candidates, [&](const Candidate& a, const Candidate& b) {
       return elders_.is_born_before(a.lifetime, b.lifetime);
     });
-    double last_death = -kInfinity;  // last death among the bars born before
+    double last_death = -kInfinity;  // last death among the bars of earlier groups
     for (std::size_t begin = 0, end; begin < candidates.size(); begin = end) {
       // A group consists of bars none of which is born before another. It is a single bar if births
       // are compared by edge. Otherwise it consists of all bars with the same birth.

@@ -229,7 +229,7 @@ class Boruvka {
 }  // namespace
 
 bool has_fast_spanning_forest(PointsView points, PointDistance distance) {
-  constexpr Index most_axes = 8;  // with more axes, boxes exclude little (measured)
+  constexpr Index most_axes = 8;  // with more axes, boxes rule out few points (measured)
   return points.cols() <= most_axes && NeighbourSearch::can_search(distance);
 }
 

@@ -95,7 +95,7 @@ class CliqueCounter {
     Ticker ticker(context_, "cells", samples);
     for (std::size_t i = 0; i < samples; ++i) {
       // One edge is taken from each of several equally long pieces of the order. Short and long
-      // edges are therefore sampled in proportion.
+      // edges are therefore sampled in proportion to their numbers.
       const std::size_t begin = i * edges / samples, end = (i + 1) * edges / samples;
       const FlagEdge& e = graph_.edges()[begin + (end > begin ? below(end - begin) : 0)];
       intersect(neighbours_.of(e.u), neighbours_.of(e.v), set);

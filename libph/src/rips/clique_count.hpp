@@ -10,7 +10,8 @@ namespace ph {
 /// The number of cells of each dimension in a flag complex.
 struct CliqueCounts {
   std::vector<double> counts;  ///< number of cells of each dimension, without trailing zeros
-  /// Dimensions below this are counted, and the other dimensions are estimated.
+  /// In dimensions below this number, cells were counted. In the other dimensions, `counts` has
+  /// estimates.
   int counted_dims = 0;
 };
 

@@ -126,7 +126,7 @@ void EdgeLinkSweep<K>::run() {
 
 template <Field K>
 bool EdgeLinkSweep<K>::can_skip_bin(std::size_t bin) {
-  // A link that is not empty remains non-empty, and an edge with such a link joins no components.
+  // A link that is not empty never becomes empty, and an edge with such a link joins no components.
   if (!can_skip_bins()) return false;
   const auto have_links = [&](std::span<const FlagEdge> edges) {
     return graph_.have_links(edges, context_);

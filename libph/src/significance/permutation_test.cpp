@@ -89,7 +89,7 @@ std::pmr::vector<double> powers_of(const DistanceMatrix& distances, double power
 }
 
 /// The sum, over all groups, of half the mean power of the pairs in the group. For a group of n
-/// diagrams, this is 1 / (2 n (n - 1)) times the sum over ordered pairs.
+/// diagrams, half the mean power is 1 / (2 n (n - 1)) times the sum over ordered pairs.
 double loss_of(std::span<const double> powers, std::span<const std::uint32_t> groups,
                std::span<const std::size_t> sizes, std::vector<double>& sums) {
   sums.assign(sizes.size(), 0.0);

@@ -130,7 +130,7 @@ class KMeans {
                      }
                    });
     is_new_ = false;
-    // Sums in the order of pieces do not depend on the threads.
+    // The sums are added up in the order of the pieces, so they do not depend on the threads.
     sums_.assign(count, {});
     for (std::size_t i = 0; i < sums.size(); ++i) sums_[i % count].add(sums[i]);
     return std::ranges::find(changed, 1) != changed.end();

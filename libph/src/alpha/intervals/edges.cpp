@@ -19,9 +19,9 @@ uint32_t larger_end(Found found) { return static_cast<uint32_t>(found >> 32); }
 std::size_t cell_of(Found found) { return static_cast<uint32_t>(found) >> 3; }
 unsigned edge_of(Found found) { return static_cast<unsigned>(found & 7); }
 
-/// Calls a function with each edge of a cell. Leaves out an edge if one of the two neighbouring
-/// cells across the facets at that edge has a smaller number. Among the cells around an edge, the
-/// first one always reports the edge, and the others rarely do.
+/// Calls a function with each edge of a cell. Leaves out an edge if the neighbour across one of the
+/// cell's two facets at that edge has a smaller number. Of the cells around an edge, the first
+/// always reports the edge, and the others rarely do.
 template <class Use>
 void for_each_first(const Triangulation& triangulation, std::size_t cell, Use&& use) {
   // A bit for each facet whose other side is a later cell, no cell or the cell itself.

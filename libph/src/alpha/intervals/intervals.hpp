@@ -92,7 +92,7 @@ struct AlphaCells {
   std::pmr::vector<std::uint32_t> hidden;  ///< points of the input that belong to no cell
   Triangulation triangulation;
   RawVector<double> cell_values;  ///< indexed by cell of the triangulation
-  /// For each cell, a bit for each of its vertices that is not in the lower end L of its interval.
+  /// For each cell, a bit for each vertex that is not in the lower end L of the cell's interval.
   RawVector<std::uint8_t> beyond;
   std::pmr::vector<CriticalFacet> facets;  ///< sorted by code
   // The next two members are empty unless the dimension is 3.

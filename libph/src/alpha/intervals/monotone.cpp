@@ -125,9 +125,9 @@ class SpaceRepair {
 
   /// The facets whose value is smaller than the value of one of their edges, or larger than the
   /// value of an adjacent cell. Edges are compared only with facets that do not lie in the interval
-  /// of a cell. This is enough, for the following reason. Let facet f lie in the interval of cell
-  /// t, let e be an edge of f, and let g be the other facet of t at e. If g also lies in the
-  /// interval of t, then e lies in this interval, and e has the value of f. Otherwise f has the
+  /// of a cell. This comparison is enough for the following reason. Let facet f lie in the interval
+  /// of cell t, let e be an edge of f, and let g be the other facet of t at e. If g also lies in
+  /// the interval of t, then e lies in this interval, and e has the value of f. Otherwise f has the
   /// value of t, which is at least the value of g. In that case it is enough that the value of e
   /// does not exceed the value of g, and the same argument applies to g. Repeating the argument
   /// leads around e from facet to facet. The repetition ends, because radii fall strictly from f to

@@ -65,8 +65,9 @@ double Spheres::careful_radius(const Faces& face, std::size_t count) const {
     points[i] = {scaled(p.x, origin.x), scaled(p.y, origin.y), scaled(p.z, origin.z)};
     weights[i] = DoubleDouble(std::ldexp(sites_.weight(face[i]), -2 * exponent));
   }
-  // A tetrahedron may be flat, or small compared with its weights. Its radius is computed with 106
-  // bits only if the rounding errors still leave enough correct bits for a double.
+  // If a simplex is very flat, or very small compared with its weights, rounding errors leave too
+  // few correct bits for a double, even in a computation with 106 bits. The radius of such a
+  // simplex is computed exactly.
   const Vector<DoubleDouble> u = points[0], v = points[1], normal = cross(u, v);
   // mutant: alpha-edge-size
   const double size = count == 4   ? std::abs(dot(normal, points[2]).high())

@@ -115,7 +115,7 @@ class Hollows {
   std::int64_t sign(std::uint32_t cell) const {
     return cells_.triangulation.is_reversed[cell] != 0 ? -1 : 1;  // mutant: alpha-hollow-sign
   }
-  /// The sign for which the facet of the birth has the coefficient 1 in the cycle.
+  /// The sign of the cycle that gives the facet of the birth the coefficient 1.
   std::int64_t sign_of(std::uint32_t code, std::uint32_t inside) {
     return incidence(sets_.find(code >> 2) == inside ? code : cells_.across(code));
   }

@@ -177,8 +177,9 @@ class Quotient {
     return is_kept == is_wanted;
   }
 
-  /// True if each kept cell at one of the sites, moved so that this site is in the box, is a cell
-  /// of the unrolled triangulation. The kept cells then cover the surroundings of this site once.
+  /// Takes one of the sites, and moves each kept cell at this site so that the site is in the box.
+  /// True if all the moved cells are cells of the unrolled triangulation. The kept cells then cover
+  /// the surroundings of this site once.
   bool covers_once() const {
     const auto begin = cells_by_vertex(unrolled_.cells, images_.places.size(), &context_.memory);
     const uint32_t site = result_.cells[0][0];

@@ -34,7 +34,8 @@ struct Sites {
   std::pmr::vector<double> weights;  ///< indexed by site, or empty if no point has a weight
   /// For each site, the first point of the input at this place.
   std::pmr::vector<std::uint32_t> input;
-  /// The other points of the input at the same places. Each entry is such a copy and its site.
+  /// The other points of the input at the same places. Each entry consists of such a point, which
+  /// is a copy, and its site.
   std::pmr::vector<std::array<std::uint32_t, 2>> copies;
   /// All sites in an order that keeps neighbours in space close together; empty if the numbers of
   /// the sites already give such an order.

@@ -88,9 +88,10 @@ void CellGrid::append_numbers(std::uint32_t cell, unsigned loops,
   for (std::size_t k = 0; k < static_cast<std::size_t>(dim_); ++k)
     numbers[base + input_axis_[k]] = Index{x[k]};
   for (std::size_t i = 0; i < loops_.size(); ++i) {
-    // Along such an axis, the doubled grid is a circle of one vertex (coordinate 0) and one edge
-    // (coordinate 1). The voxel is the vertex in the V-construction, and the edge in the
-    // T-construction. If bit i of `loops` is set, the copy of the cell goes around the circle.
+    // Along a periodic axis with one voxel, the doubled grid is a circle of one vertex (coordinate
+    // 0) and one edge (coordinate 1). The voxel is the vertex in the V-construction, and the edge
+    // in the T-construction. If bit i of `loops` is set, the copy of the cell goes around the
+    // circle.
     numbers[base + loops_[i]] = static_cast<Index>(loops >> i & 1U);
   }
 }

@@ -162,8 +162,8 @@ template <Field K>
 bool PartLoops<K>::is_done(std::uint32_t i, std::optional<Term>& pivot, Chain& chain) {
   const auto is_here = [&] { return pivot && grid_.owns(pivot->cell.voxel()); };
   // Expanding the cells that this part sees takes about as long as sending them. The limit prevents
-  // a single column from taking very long. After cells have been expanded, the pivot may be an edge
-  // of this part.
+  // a single column from taking a very long time. After cells have been expanded, the pivot may be
+  // an edge of this part.
   constexpr std::size_t few = 64, times = 4;
   // mutant: column-goes
   if (pivot && !is_here()) pivot = chain.follow(*pivot, times * (chain.size() + few));

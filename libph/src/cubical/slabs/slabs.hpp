@@ -143,7 +143,7 @@ class Slabs {
   CubePairMemos cube_pairs_;
   std::pmr::vector<std::byte> around_;
   const RunContext& context_;
-  // Claims memory for the voxels of the current slab if the image is in a file. These voxels take
+  // Claims memory for the voxels of the current slab if the image is in a file. These voxels occupy
   // memory while they are used.
   std::optional<MemoryClaim> read_;
 };

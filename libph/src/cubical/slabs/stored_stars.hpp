@@ -54,8 +54,8 @@ class StoredStars : public GridFrame {
   std::uint32_t star(std::uint32_t v) const { return stars()[v]; }
   void expect_star(std::uint32_t v) const { __builtin_prefetch(stars() + v); }
   bool enters(std::uint32_t v) const { return star(v) != kAbsent; }
-  /// Removes pages of the files from memory if they take too much. Threads call this function from
-  /// time to time.
+  /// Removes pages of the files from memory if they occupy too much of it. Threads call this
+  /// function from time to time.
   void tidy() const {
     if (resident_.bytes() <= most_) return;
     forget_file_pages(file_.data(), file_.size());

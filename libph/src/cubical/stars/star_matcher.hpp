@@ -115,7 +115,7 @@ class StarMatcher {
   // The steps are in the order in which apparent pairs use them.
   std::array<Step, 2 * std::size_t{CellGrid::kMostAxes}> steps_;
   std::size_t step_count_ = 0;
-  // The ends of the axes at which the previous voxel was.
+  // The ends of axes that the previous voxel touched.
   std::uint32_t border_ = UINT32_MAX;
   // The cells are sorted so that each cell comes after the cells that have one step fewer.
   std::pmr::vector<StarCell> cells_;

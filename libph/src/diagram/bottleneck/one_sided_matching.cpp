@@ -51,7 +51,7 @@ DistanceBounds OneSidedMatching::narrow(const DistanceBounds& bounds,
   };
   if (!is_done() && limits.at_most >= found.lower && limits.at_most < found.value)
     probe(limits.at_most);
-  // The largest radius with which the search is over if all long bars can be paired within it.
+  // The largest radius that ends the search if all long bars can be paired within it.
   const auto last = [&] {
     return std::max(found.lower * (1 + limits.relative_error), std::min(bounds.value, found.value));
   };

@@ -13,15 +13,16 @@ constexpr double kStep = 6;
 /// In the first round, the increment is raised whenever this many bids per bar have been made.
 constexpr std::uint64_t kBidsAStep = 3;
 
-/// An upper bound for the rounding error of cost - price. If a bid is lower by more than this
-/// bound, rounding is not the reason.
+/// An upper bound for the rounding error of cost - price. If one bid is lower than another by more
+/// than this bound, rounding is not the reason.
 double rounding_of(double cost, double price) { return 1e-15 * (cost + std::abs(price)); }
 
 }  // namespace
 
 Auction::Auction(Assignment& assignment, const RunContext& context)
     : assignment_(assignment), ticker_(context, "Wasserstein distance") {
-  // The first prices are feasible. They start at zero and are raised on one side after the other.
+  // The first prices are feasible. They start at zero and are raised first on one side, then on the
+  // other.
   Assignment::Side& mine = assignment_.side(0);
   for (Position x = 0; x < mine.tree.size(); ++x) mine.prices.set(x, 0);
   for (const std::size_t k : {1U, 0U})

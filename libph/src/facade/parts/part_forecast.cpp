@@ -1,6 +1,5 @@
-// SPDX-License-Identifier: MIT
-// Forecasts the time and the memory that the parts of an image need, from a sample of its voxels.
-// Cuts the image into parts that take equally long.
+// SPDX-License-Identifier: MIT Forecasts the time and the memory that the parts of an image need,
+// from a sample of its voxels. Also cuts the image into parts that need about the same time.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>

@@ -47,8 +47,9 @@ Barcode read_dipha(const Input& input) {
   return barcode;
 }
 
-/// Reads an array with rows dim, birth, death. CubicalRipser appends the three or four coordinates
-/// of the birth voxel and of the death voxel, and writes the largest double for infinity.
+/// Reads an array whose rows consist of dim, birth and death. CubicalRipser appends the three or
+/// four coordinates of the birth voxel and of the death voxel, and writes the largest double for
+/// infinity.
 StoredBarcode read_npy(const Input& input) {
   const Image array = detail::read_npy_array(input);
   const std::size_t width = array.dim() == 2 ? array.extents[1] : 0;

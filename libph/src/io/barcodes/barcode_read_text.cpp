@@ -53,8 +53,8 @@ const Column* column_of(const std::string& name) {
   return found == kNames.end() ? nullptr : &found->second;
 }
 
-/// True if the current line is a header, that is, it consists of names or names at least one known
-/// column.
+/// True if the current line is a header. In a header, all cells are names, or at least one cell is
+/// the name of a known column.
 bool is_line_of_names(const TextLines& lines) {
   return !header_names(lines.line()).empty() ||
          std::ranges::any_of(detail::header_cells(lines.line(), false), column_of);

@@ -56,7 +56,7 @@ bool is_nifti(const Input& input);
 bool is_dipha(const Input& input);
 
 /// True if the first bytes contain no control characters except tabs and line ends. Binary formats
-/// begin with a count of eight bytes. A count below 2^40 contains NUL bytes, which do not occur in
+/// begin with an eight-byte count. A count below 2^40 contains NUL bytes, which do not occur in
 /// text.
 bool is_text(std::string_view bytes);
 
@@ -102,7 +102,7 @@ Image without_nan_pixels(Image image, const Input& input, const ReadOptions& opt
 /// Converts the numbers of a cloud between little endian and this machine's byte order.
 void to_native(Cloud& cloud);
 
-/// Checks the budget before a vector that is full grows.
+/// Checks the budget before a full vector grows.
 template <class T>
 void require_growth(const Input& input, const std::vector<T>& vector) {
   if (vector.size() == vector.capacity()) input.require_memory(2 * vector.size() * sizeof(T));

@@ -8,9 +8,9 @@
 
 namespace ph::detail {
 
-/// These limits for the expansion of compressed data apply to any memory budget, because a file of
-/// a few kilobytes that expands to gigabytes is a decompression bomb.
-/// The number of bytes that is always allowed.
+/// The number of bytes to which compressed data may always expand. This limit and the next one
+/// apply whatever the memory budget is, because a file of a few kilobytes that expands to gigabytes
+/// is a decompression bomb.
 constexpr std::size_t kMostFree = std::size_t{128} << 20;
 /// The largest size of a result above kMostFree, as a multiple of the packed size.
 constexpr std::size_t kMostExpansion = 256;

@@ -50,7 +50,7 @@ class CameraYaml {
     yaml_.input().fail_at(value.line, value.column, fault);
   }
 
-  /// The first of these values that exists, or null.
+  /// The value of the first of these names that has words, or null.
   const YamlWords::Value* find(Names names) const {
     for (const std::string_view name : names)
       if (const YamlWords::Value* value = yaml_.find(name);

@@ -80,7 +80,7 @@ class Interleaver {
       record += cloud_.stride;
     }
     const std::size_t stride = cloud_.stride;
-    // This is the usual case, and a copy of constant length is a single move.
+    // This is the usual case, and copying a constant length is a single instruction.
     if (width_ == 4) {
       for (; end - from >= 4; from += 4, record += stride) std::memcpy(record, from, 4);
     } else {

@@ -6,8 +6,8 @@
 
 namespace ph::detail {
 
-/// Returns n (n - 1) / 2, which is the number of pairs of n points, and the position of d(n, 0)
-/// among them.
+/// Returns n (n - 1) / 2. This is the number of pairs of n points, and also the position of d(n, 0)
+/// in the rows of the lower triangle.
 constexpr std::size_t triangle(std::size_t n) {
   return n % 2 == 0 ? n / 2 * (n - 1) : (n - 1) / 2 * n;
 }
@@ -23,8 +23,8 @@ DistanceMatrix no_points(const Input& input, const ReadOptions& options);
 std::vector<double> make_triangle(const Input& input, std::size_t n, std::size_t first,
                                   std::optional<std::size_t> cells, const ReadOptions& options);
 
-/// The text for an error message that names the option that requires a square matrix, and a
-/// possible cause of the problem.
+/// A part of an error message. It names the option that requires a square matrix, and a possible
+/// cause of the problem.
 std::string why_square(const ReadOptions& options);
 
 [[noreturn]] void fail_row(const TextLines& lines, std::size_t row, std::size_t found,
@@ -45,7 +45,7 @@ class TextEntries {
   double next(const EntryPlace& place);
   /// Reads an entry that is not on the diagonal.
   double next() { return next(place(1, 0)); }
-  /// Returns the distance for an empty last cell, which means NaN.
+  /// Returns the distance for an empty last cell, which counts as NaN.
   double missing(const EntryPlace& place);
   double merged(double upper, double lower, const EntryPlace& place) {
     return entries_.merged(upper, lower, place);

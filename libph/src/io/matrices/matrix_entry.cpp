@@ -28,7 +28,7 @@ void MatrixEntries::doubt(Kind kind, const Doubt& doubt) {
 }
 
 double MatrixEntries::rounding() const {
-  // This is the rounding of r, not of 1 - r.
+  // For a correlation r, the bound is for the rounding of r, not of 1 - r.
   // mutant: matrix-rounding
   return kRounding * (options_.from_correlation ? 1 : largest_);
 }

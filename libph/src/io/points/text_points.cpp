@@ -54,7 +54,7 @@ bool begins_with_digits(const Input& input) {
 // read as data but may be a header.
 void tell_of_counts(const Input& input, const detail::TableLayout& layout, PointsView rows,
                     const ReadOptions& options) {
-  constexpr Index kFewest = 8;  // so many rows rarely count by chance
+  constexpr Index kFewest = 8;  // in this many rows, a column rarely counts the rows by chance
   if (!options.columns.empty()) return;
   const bool is_image = options.array == ArrayMeaning::image;
   const bool has_name = !layout.header.empty() && layout.header.size() == layout.width;
@@ -148,8 +148,8 @@ TextTable read_text_table(const Input& input, Allow allow, const ReadOptions& op
   const auto columns = static_cast<std::size_t>(std::ranges::count(taken, true));
 
   // There are at most as many rows as lines. A cell may be empty, but it takes one byte with its
-  // separator or the line end. A row therefore takes at least one byte per cell. For any content of
-  // the file, the table takes at most eight times the size of the file.
+  // separator or the line end. A row therefore takes at least one byte per cell. Whatever the file
+  // contains, the table takes at most eight times the size of the file.
   const std::string_view rest = input.text().substr(lines.offset());
   const std::size_t by_lines =
       static_cast<std::size_t>(std::count(rest.begin(), rest.end(), '\n')) + 2;

@@ -97,7 +97,7 @@ void LivingCocycles<Cochain>::erase(Generator g) {
 
 template <class Cochain>
 void LivingCocycles<Cochain>::add(Generator to, Generator from, Element scale) {
-  context_.poll();  // adding a large cocycle takes long
+  context_.poll();  // adding a large cocycle takes a long time
   cochains_[to].add(
       cochains_[from], scale, shared_, [&](Vertex a, ListId list) { enter(to, a, list); },
       [&](Vertex a) { leave(to, a); });

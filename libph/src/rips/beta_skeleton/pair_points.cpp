@@ -189,7 +189,7 @@ void pair_points(PointsView points, const K& field, const PointPairRequest& want
   const auto run = [&]<int D>(PointsView view) {
     Pairing<D, K>(view, rows, field, wanted, observer, context).run(vertices);
   };
-  if (points.cols() == 1) {  // these are handled as points on a line in the plane
+  if (points.cols() == 1) {  // points of R^1 become points on a line in the plane
     Points plane(points.rows(), 2);
     const MemoryClaim claim(context.memory, vertices * 2 * sizeof(double));
     for (Index i = 0; i < points.rows(); ++i) plane(i, 0) = points(i, 0);

@@ -8,10 +8,10 @@
 
 namespace ph::beta_skeleton {
 
-// The spindle of an edge (u, v) consists of the points p that see u and v under an angle of more
-// than 150 degrees. A point p of the spindle is in the lens of the edge, and its distance to every
-// point of the lens is less than |uv|. If there is such a point, the edge changes nothing. For the
-// proofs of these statements and of the statements below, see
+// The spindle of an edge (u, v) consists of the points p at which the segment uv subtends an angle
+// of more than 150 degrees. A point p of the spindle is in the lens of the edge, and its distance
+// to every point of the lens is less than |uv|. If there is such a point, the edge changes nothing.
+// For the proofs of these statements and of the statements below, see
 // docs/explanation/engines/beta-skeleton.md.
 //
 // Rounding: the lens is defined by the rounded distances, and each rounded square has a relative

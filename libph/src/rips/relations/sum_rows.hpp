@@ -20,8 +20,8 @@ class SumRows {
   using Sum = std::uint32_t;
   using Word = bits::Word;
 
-  /// The number of words per row for the given number of generators, with room for some that may
-  /// follow.
+  /// The number of words per row for the given number of generators, with room for some more
+  /// generators.
   static std::size_t words_for(std::size_t generators) {
     return (generators + generators / 8) / 64 + 1;
   }

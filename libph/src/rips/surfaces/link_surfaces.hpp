@@ -241,8 +241,8 @@ template <Field K>
 void LinkSurfaces<K>::correct_others(std::size_t dying, const FlagEdge& e, Vertex w,
                                      std::size_t words) {
   // A multiple of a younger mismatched class is added to each other mismatched extension. Among the
-  // younger classes, the one with the smallest cocycle is used, as it was before this step. Loops
-  // come before all classes.
+  // younger classes, the class whose cocycle was smallest before this step is used. Loops come
+  // before all classes.
   auto& all = extensions_.all();
   partners_.assign(dying, dying);
   std::size_t partner = dying;
@@ -308,7 +308,7 @@ template <Field K>
 void LinkSurfaces<K>::add_star_to_cocycle(const FlagEdge& e, const Unit* star, std::size_t blocks) {
   Function::for_each(star, blocks, [&](std::size_t apex, Element a) {
     std::array<Vertex, 3> vertices{e.v, e.u, graph_.global(static_cast<Vertex>(apex))};
-    // The sign of phi(u,v,w) changes if sorting (u,v,w) takes an odd number of swaps.
+    // The sign of phi(u,v,w) changes if sorting (u,v,w) needs an odd number of swaps.
     const bool is_odd = vertices[2] > e.u || vertices[2] < e.v;
     std::ranges::sort(vertices);
     cocycle_.push_back({vertices, is_odd ? field_.negate(a) : a});
