@@ -22,7 +22,7 @@ int run(Arguments& arguments, app::Session& session);
 /// on stderr is the throughput.
 int run_stream(const Arguments& arguments, app::Session& session);
 
-/// The state that is kept from frame to frame so that results do not jump.
+/// The state that is kept from frame to frame, to prevent jumps in the results.
 struct Remembered {
   LabelTracker tracker;
   /// The last frame with a plane, of which only the plane and the viewpoint are set.

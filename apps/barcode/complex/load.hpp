@@ -30,7 +30,7 @@ class Stopwatch {
   std::vector<std::pair<std::string, double>> laps_;
 };
 
-/// Everything that is kept of an input: the complex, and the facts that results state about it.
+/// Everything that is kept from an input: the complex, and the facts that results state about it.
 struct Loaded {
   BuiltComplex built;
   std::string name;  ///< the name of the input, printable

@@ -85,7 +85,8 @@ RankResult image_of_ranks(const Job& job, Transport& transport, app::Session& se
   const bool has_loops = own && own->has_loops();
   if (has_loops && job.common.slab_layers > 0)
     session.note("--slab-layers does nothing for loops of volumes: they need all layers of a part");
-  // This takes the voxels of the part before the part is joined and destroyed.
+  // The search for loops takes the voxels out of the part first, because the join destroys the
+  // part.
   std::optional<ImageLoops> loops;
   if (has_loops) loops.emplace(*own, job.question.options.field, context);
 

@@ -35,7 +35,7 @@ std::vector<std::string> long_names(const CLI::App& app) {
   const std::vector<std::string_view> views(known.begin(), known.end());
   // A name that was typed with one dash instead of two is also looked up.
   const std::string dashed = name.starts_with("--") ? name : "-" + name;
-  // These words mean the highest dimension, although another option is spelled more similarly.
+  // These words stand for the highest dimension, although the spelling of another option is closer.
   const std::string_view word = std::string_view(dashed).substr(2);
   const bool is_dimension = word == "dim" || word == "maxdim" || word == "dimension";
   const auto most = std::ranges::find_if(

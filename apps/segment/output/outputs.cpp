@@ -32,7 +32,7 @@ std::string extension_of(std::string_view path) {
 void require_extension(const OutputOption& of, const std::string& path) {
   if (of.extensions.empty() || path == "-") return;
   if (std::ranges::count(of.extensions, extension_of(path)) > 0) return;
-  // These are names that the format also accepts.
+  // Barcodes may also have the other extensions of barcode formats.
   if (of.kind == OutputKind::barcode && barcode_format_of_path(path)) return;
   throw Error(ErrorKind::usage, fmt::format("{}: found {}, expected a file name that ends in {}",
                                             of.option, path, fmt::join(of.extensions, " or ")));

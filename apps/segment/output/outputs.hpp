@@ -26,7 +26,7 @@ struct RunInfo {
   std::vector<std::optional<Barcode>> signatures = {};
   // The following members are for the report.
   std::string sha256 = {};                 ///< the hash of the input
-  std::vector<std::string> warnings = {};  ///< messages that the user got
+  std::vector<std::string> warnings = {};  ///< warnings that were printed
 
   std::uint32_t number_of(std::uint32_t label) const {
     return label == 0 || numbers.empty() ? label : numbers[label - 1];

@@ -12,7 +12,7 @@
 namespace ph {
 namespace {
 
-/// Keeps the error of the first input among those that failed.
+/// Keeps the error of the first of the inputs that failed.
 class FirstError {
  public:
   void keep(std::size_t input, std::exception_ptr error) {

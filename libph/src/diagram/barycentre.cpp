@@ -116,8 +116,8 @@ class Alternation {
       distances.push_back(matching.distance.value);
     return root_mean_square(distances);
   }
-  /// Moves each bar to the mean of its partners in the last `match`. For each bar of a diagram that
-  /// had no partner, adds a new bar.
+  /// Moves each bar to the mean of its partners in the last `match`. If a bar of a diagram had no
+  /// partner, adds a new bar for it.
   void move() {
     std::vector<std::vector<Bar>> partners(bars_.size());
     std::vector<Bar> moved;

@@ -103,7 +103,7 @@ class Search {
       found_.push_back({std::move(changes), e.bytes_low, e.bytes_high});
       return true;
     } catch (const Error& error) {
-      // This throws if the caller has requested a stop.
+      // The call throws if the caller has requested a stop.
       if (error.kind() == ErrorKind::cancelled) context_.poll();
       return false;
     } catch (const std::bad_alloc&) {
@@ -112,7 +112,7 @@ class Search {
   }
   bool try_task(const Options& options, std::vector<Remedy> changes) {
     return try_out(options, std::move(changes), [&](const RunContext& trial) {
-      // This is a copy of the filtration, so that nothing made in the trial is kept.
+      // The trial gets a copy of the filtration, so that nothing that the trial makes is kept.
       return rips_ && rips_->has_form(RipsForm::edges)
                  ? AnyComplex(rips_->with(rips_->options(), trial))
                  : complex_;

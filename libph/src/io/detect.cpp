@@ -34,8 +34,8 @@ std::optional<Format> by_extension(const Input& input) {
   if (extension == ".pts" && detail::is_counted(input)) return Format::pts;
   if (extension == ".npz") return Format::npz;
   if (extension == ".nii" || extension == ".hdr") return Format::nifti;
-  // These formats have a magic number. Without it, the file is damaged at the start, which the
-  // reader of the format will report.
+  // Files with these extensions must begin with a magic number. If it is missing, the start of the
+  // file is damaged, and the reader of the format will report this.
   if (extension == ".pcd") return Format::pcd;
   if (extension == ".ply") return Format::ply;
   if (extension == ".off") return Format::off;

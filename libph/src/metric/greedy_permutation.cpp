@@ -14,8 +14,8 @@ namespace ph {
 namespace {
 
 // The squared Euclidean distances of all points to the chosen points, computed axis by axis. The
-// compiler can vectorise the loops, because they contain neither branches nor sums across points.
-// It may not reorder such sums.
+// compiler can vectorise the loops, because they contain neither branches nor sums across points. A
+// compiler may not reorder such sums.
 class Squares {
  public:
   Squares(PointsView points, const RunContext& context)

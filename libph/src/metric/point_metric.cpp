@@ -157,7 +157,8 @@ double PointMetric::other(Index i, Index j) const {
       return largest * std::pow(sum, 1 / p_);
     }
     case PointDistance::cosine: {
-      // |x/|x| - y/|y||^2 / 2 is the same number and keeps its digits for small angles.
+      // The distance also equals |x/|x| - y/|y||^2 / 2. This form keeps its digits for small
+      // angles.
       const Direction along_x(x, d), along_y(y, d);
       return sum_in_lanes(d,
                           [&](Index k) {

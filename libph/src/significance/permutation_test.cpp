@@ -117,8 +117,8 @@ PermutationTest permutation_test(const DistanceMatrix& distances,
   const double loss = loss_of(powers, observed.of, observed.sizes, sums);
   result.loss =
       unit == 1 ? loss : std::pow(unit * std::pow(loss, 1 / options.power), options.power);
-  // This allows for rounding, because sums in a different order differ slightly. Shuffles that only
-  // exchange the labels of groups then count as ties.
+  // The factor allows for rounding, because sums in a different order differ slightly. Shuffles
+  // that only exchange the labels of groups then count as ties.
   const double as_low = loss * (1 + 1e-12);
   std::atomic<std::size_t> as_low_count = 0;
   for_each_piece("shuffles", options.shuffles, 1, context, [&](std::size_t begin, std::size_t end) {

@@ -50,7 +50,8 @@ BarPValues universal_p_values(std::span<const Bar> bars, DistanceFiltration filt
   const double a = filtration == DistanceFiltration::rips ? 1 : 0.5;  // mutant: null-cech
   const double mean = sum / static_cast<double>(std::max<std::size_t>(result.tested, 1));
   for (std::size_t i = 0; i < bars.size(); ++i)
-    // This is 1 - F for the left-skewed Gumbel law, F(x) = 1 - exp(-exp x), whose mean is -egamma.
+    // The p-value is 1 - F for the left-skewed Gumbel law, F(x) = 1 - exp(-exp x), whose mean is
+    // -egamma.
     if (!bars[i].is_infinite() && bars[i].birth < bars[i].death)
       // mutant: null-mean
       result.p[i] = std::exp(-std::exp(a * (result.p[i] - mean) - std::numbers::egamma));

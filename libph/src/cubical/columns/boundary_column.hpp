@@ -15,10 +15,10 @@
 
 namespace ph::cubical {
 
-/// A chain of cells under reduction. If the pivot is a cell that is killed inside its star, it is
-/// replaced by the rest of the boundary of its killer. A chain is therefore expanded only down to
-/// its pivot. Cells that kill other cells are left out, because such a cell is never the youngest
-/// cell of a cycle. An object must not be shared by threads.
+/// A chain of cells under reduction. If the pivot is a cell that is killed inside its star, the
+/// pivot is replaced by the rest of the boundary of its killer. A chain is therefore expanded only
+/// down to its pivot. Cells that kill other cells are left out, because such a cell is never the
+/// youngest cell of a cycle. An object must not be shared by threads.
 template <Field K>
 class BoundaryColumn {
  public:
@@ -60,8 +60,8 @@ class BoundaryColumn {
  private:
   using Terms = std::pmr::vector<Term>;
 
-  // Replaces a cell that has been removed by the rest of the boundary of its killer. @return true
-  // if the cell has a killer inside its star.
+  // Takes a cell that has been removed, and adds the rest of the boundary of its killer instead.
+  // @return true if the cell has a killer inside its star.
   bool replace(const Term& term) {
     const std::uint32_t cell = CellGrid::cell(term.cell);
     const CellMark mark = grid_.mark(cell);

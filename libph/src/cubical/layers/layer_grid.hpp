@@ -11,7 +11,7 @@
 namespace ph::cubical {
 
 /// A grid of more than three axes, or some of its layers. It stores only the values of voxels,
-/// which are all that the two graphs need. It stores no other cells, so the number of cells is not
+/// because the two graphs need nothing else. No other cells are stored, so their number is not
 /// limited.
 class LayerGrid : public SlabFrame {
  public:

@@ -10,8 +10,8 @@
 namespace ph::cubical {
 
 /// Arrows, roots and bridges of a graph, as found in the stars of some voxels. The arrow of a node
-/// crosses a bridge of its star that is in a pair of length zero. The arrow leads to an older node
-/// or to another node of the star.
+/// crosses a bridge of the same star, and this bridge is in a pair of length zero. The arrow leads
+/// to an older node or to another node of the star.
 struct StarLinks {
   struct Root {
     std::uint32_t voxel, node, number;

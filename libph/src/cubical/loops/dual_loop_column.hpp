@@ -24,8 +24,8 @@ using DualEdge = LoopSquare;
 /// two graphs pairs.
 class FreeDualEdges {
  public:
-  /// @param squares the critical squares; those listed in `squares.order` are in no pair. `squares`
-  /// must outlive this object.
+  /// @param squares the critical squares; the squares listed in `squares.order` are in no pair.
+  /// `squares` must outlive this object.
   FreeDualEdges(const StarGrid& grid, const CriticalCells& squares,
                 std::pmr::memory_resource* memory)
       : grid_(grid), squares_(squares), is_free_(squares.cells.size(), false, memory) {

@@ -15,8 +15,8 @@
 
 namespace ph::cubical {
 
-/// A chain of edges under reduction. If the pivot is an edge that is paired inside its star, it is
-/// replaced by the rest of the boundary of the square with which it is paired. A chain is therefore
+/// A chain of edges under reduction. If the pivot is an edge that is paired with a square inside
+/// its star, the pivot is replaced by the rest of the boundary of this square. A chain is therefore
 /// expanded only down to its pivot. Edges that kill a component are left out, because such an edge
 /// is never the pivot of a column. An object must not be shared by threads.
 /// @tparam Stars StarGrid, StoredStars, or PartStars.

@@ -29,8 +29,8 @@ class LoopReduction {
   using Term = typename Reduction::Term;
   using Column = typename Reduction::Column;
 
-  /// @param squares the critical squares; those listed in `squares.order` give birth to no class
-  /// that dies.
+  /// @param squares the critical squares; the squares listed in `squares.order` give birth to no
+  /// class that dies.
   LoopReduction(const Stars& grid, const FreeEdges& free, const CriticalCells& squares,
                 const K& field, const RunContext& context)
       : grid_(grid),

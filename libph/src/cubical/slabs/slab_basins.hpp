@@ -44,7 +44,7 @@ class SlabBasins {
   }
 
   /// The components of this slab, before it is joined with other layers.
-  /// @param cells the critical cells; those in `cells.order` are the bridges of the graph.
+  /// @param cells the critical cells; the cells in `cells.order` are the bridges of the graph.
   SeamForest<Graph::kBackwards> forest(const CriticalCells& cells) {
     SeamForest<Graph::kBackwards> result(context_);
     result.bridges.resize(cells.order.size());

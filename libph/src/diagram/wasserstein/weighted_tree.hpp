@@ -9,7 +9,7 @@
 namespace ph::diagram {
 
 /// The points of a tree with weights that may change. The class finds the points with the least
-/// difference of cost and weight. Each node stores the largest weight of its points.
+/// value of cost minus weight. Each node stores the largest weight of its points.
 class WeightedTree {
  public:
   using Position = PointTree::Position;

@@ -62,7 +62,7 @@ std::uint64_t layers_of(const GridShape& shape) {
 }
 
 /// The lowest min_dim for which the graph of top cells is enough. Each periodic axis with a single
-/// voxel raises it by one, because such an axis repeats every bar one dimension higher.
+/// voxel raises this dimension by one, because such an axis repeats every bar one dimension higher.
 int lowest_of_top_cells(const GridShape& shape) {
   return shape.top_dim() - 1 + static_cast<int>(shape.loop_count());
 }

@@ -133,7 +133,7 @@ struct ImagePart::State {
   int first = 0, last = 0;
   cubical::LayerPairs pairs;
   cubical::FreeCells freed;  // free cells found by joins; `own` has the free cells of a part
-  // Present only in a part that was not joined to others, until ImageLoops takes it.
+  // Set only in a part that was not joined with other parts, until ImageLoops takes these data.
   std::optional<cubical::OwnLayers> own;
   Barcode bars;  // the bars are not sorted yet
   MemoryClaim claim;

@@ -14,7 +14,7 @@
 namespace ph {
 
 /// Some of the blocks of a cloud. The class computes, block by block, the edges of the cloud's
-/// minimum spanning forest that this block must find (see `forest`). It reads the entire cloud once
+/// minimum spanning forest that each block must find (see `forest`). It reads the entire cloud once
 /// when it is constructed and once more for each block. It keeps only one block and the points near
 /// it in memory.
 class CloudBlocks {

@@ -144,7 +144,8 @@ class Annotations {
   // mutant: youngest-generator
   Generator youngest(Class a) const { return vectors_[a.id].back().cell; }
 
-  /// Makes a class zero: its youngest generator dies and becomes a combination of the others.
+  /// Makes a class zero: its youngest generator dies and becomes a combination of the other
+  /// generators.
   void kill(Class relation);
 
   /// Calls `visit(edge, value)` for the edges on which a living generator is not zero. These values

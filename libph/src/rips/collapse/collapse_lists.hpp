@@ -39,7 +39,7 @@ class ListGraph {
     for (Vertex v = 0; v < sizes_.size(); ++v) std::ranges::sort(list(v), {}, &Neighbour::vertex);
   }
 
-  /// The number of bytes that a ListGraph takes.
+  /// The number of bytes that a ListGraph occupies.
   static double bytes(const RipsGraph& graph) {
     return 16 * static_cast<double>(graph.edge_count()) + 12 * static_cast<double>(graph.size());
   }

@@ -24,7 +24,7 @@ class RowGraph {
         later_(static_cast<std::size_t>(graph.size()), memory),
         also_(memory) {}
 
-  /// The number of bytes that a RowGraph takes, without the later edges.
+  /// The number of bytes that a RowGraph occupies, without the later edges.
   static double bytes(const RipsGraph& graph) {
     const auto n = static_cast<double>(graph.size());
     return n * n / 8 + 32 * n;

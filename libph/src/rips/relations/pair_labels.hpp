@@ -7,7 +7,7 @@
 
 namespace ph {
 
-/// A matrix with a number for each pair of vertices. It takes 16 bits per number until a number
+/// A matrix with a number for each pair of vertices. Each number occupies 16 bits until a number
 /// that needs more bits is stored.
 class PairLabels {
  public:

@@ -8,7 +8,7 @@
 namespace ph {
 namespace {
 
-// The approximate number of bytes that a solver takes.
+// The approximate number of bytes that a solver needs.
 double bytes(std::size_t vertices) {
   constexpr double a_pair = 28;  // measured with random distances
   const auto n = static_cast<double>(vertices);

@@ -43,7 +43,7 @@ class LinkGraph {
 
   /// The fastest affordable layout.
   static LinkLayout choose_layout(std::size_t vertices, std::size_t edges);
-  /// The approximate number of bytes that a graph takes once all edges are added.
+  /// The approximate number of bytes that a graph occupies once all edges are added.
   static double bytes(std::size_t vertices, std::size_t edges);
 
   std::size_t vertex_count() const { return active_.vertex_count(); }

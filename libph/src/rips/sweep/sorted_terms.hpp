@@ -45,7 +45,7 @@ void add_sorted_terms(std::pmr::vector<Entry<Cell, K>>& list,
   const Term *j = terms.data(), *const last = j + terms.size();
   Term* out = merged.data();
   while (i != end && j != last) {
-    // This avoids branches, because the order of terms is unpredictable.
+    // The merge has no branches, because a processor could not predict the order of the terms.
     if constexpr (std::same_as<K, Z2>) {
       const Cell a = i->cell, b = j->cell;
       *out = a < b ? *i : *j;
