@@ -149,7 +149,7 @@ void add_picture_options(app::Options& options, app::PlotArguments& plots) {
 /// @return true if the first plot is the file that -o names.
 bool take_word(Job& job, app::PlotArguments& plots) {
   if (job.inputs.empty() || job.inputs.front() != "plot") return false;
-  // If `plot` is the only input and a file has this name, the file is meant. If there are other
+  // If `plot` is the only input and a file has this name, `plot` means the file. If there are other
   // inputs, this file must be given as ./plot.
   if (job.inputs.size() == 1 && std::filesystem::exists("plot")) return false;
   job.stored = true;

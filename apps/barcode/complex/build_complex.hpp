@@ -26,8 +26,8 @@ struct BuiltComplex {
   std::optional<BarcodeInfo::Subsample> subsample = std::nullopt;
   std::optional<BarcodeInfo::VoxelGrid> voxels = std::nullopt;  ///< for points as voxels
   std::optional<BarcodeInfo::AlphaValues> alpha = std::nullopt;
-  /// The same image listed cube by cube, for the oracle of --check. If it is null, the oracle uses
-  /// the complex itself.
+  /// Makes the same complex again, listed cube by cube, for the oracle of --check. If the function
+  /// is null, the oracle uses the complex itself.
   std::function<AnyComplex(const RunContext& context)> by_definition = nullptr;
 };
 

@@ -25,7 +25,7 @@ struct DepthInput {
   std::string calibration;
   /// The value of --intrinsics, or the content of `calibration`.
   std::optional<Camera> camera;
-  /// The number of depth units per metre. If it is empty, it is guessed from the image.
+  /// The number of depth units per metre. If there is none, the number is guessed from the image.
   std::optional<double> scale;
 
   bool has_camera() const { return camera || !calibration.empty(); }

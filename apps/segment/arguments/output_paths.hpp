@@ -36,8 +36,8 @@ struct OutputOption {
   std::string_view names, help;  ///< the names and the description of the option in --help
   /// The situations in which the option has an effect.
   app::Scope scope = {};
-  /// The extensions that the file may have. In a folder of results, the file has the first of
-  /// these. If there are none, any extension is accepted.
+  /// The extensions that the file may have. In a folder of results, the file has the first of these
+  /// extensions. If there are none, any extension is accepted.
   std::span<const std::string_view> extensions;
   /// True if the file depends on labels, or on colours.
   bool shows_labels = false, shows_colours = false;

@@ -28,8 +28,8 @@ int top_dim(const AlphaCells& cells, const Enters& enters);
 std::vector<std::size_t> simplex_counts(const AlphaCells& cells);
 
 /// Lists the simplices of a triangulation with values other than alpha values. The value of a
-/// simplex is the squared radius of the smallest ball around it, or the square of half the length
-/// of its longest edge. Simplices of the same interval may have different values of this kind.
+/// simplex is the squared radius of the smallest ball around it, or the squared half-length of its
+/// longest edge. Simplices of the same interval may have different values of this kind.
 /// @param value any value except alpha. Precondition: the points have no weights.
 ExplicitComplex list_with_other_values(const AlphaCells& cells, AlphaOptions::Value value,
                                        const Enters& enters, const RunContext& context);

@@ -54,8 +54,7 @@ class Envelope {
   }
 
  private:
-  /// The point to the right of which the parabola of q is below the parabola of p. Precondition: q
-  /// > p.
+  /// To the right of this point, the parabola of q is below the parabola of p. Precondition: q > p.
   double crossing(std::size_t p, std::size_t q) const {
     const auto a = static_cast<double>(p), b = static_cast<double>(q);
     return ((heights_[q] + b * b) - (heights_[p] + a * a)) / (2 * (b - a));

@@ -200,7 +200,7 @@ class Tightener {
   double last_affordable_value() const {
     std::pmr::vector<std::uint32_t> degrees(static_cast<std::size_t>(all_.size()), 0,
                                             &context_.memory);
-    double cofacets = 0;  // an upper bound, from the numbers of neighbours of the ends of edges
+    double cofacets = 0;  // an upper bound, from the degrees of the ends of edges
     for (Key key = 1; key <= all_.edge_count(); ++key) {
       const FlagEdge& e = all_.edge(key);
       cofacets += 2.0 * degrees[e.u]++ + 2.0 * degrees[e.v]++ + 2;

@@ -35,8 +35,8 @@ std::vector<double> distance_to_measure(PointsView points, Index neighbours, Poi
   points = checked.points();  // now the rows are contiguous
   detail::check_neighbours(neighbours, points.rows());
   const auto others = static_cast<std::size_t>(neighbours - 1);
-  // A list of neighbours is kept sorted as it grows. For lists longer than this, it is faster to
-  // compute all distances.
+  // A list of neighbours is kept sorted while it grows. If the lists are longer than this,
+  // computing all distances is faster.
   constexpr std::size_t most_others = 512;
   if (others == 0 || others > most_others || points.cols() == 0 ||
       !has_fast_spanning_forest(points, distance))

@@ -113,8 +113,8 @@ class Search final : public NeighbourSearch {
     const VisitPair& visit;
     Ticker& ticker;
   };
-  /// Visits each pair that consists of a point of `a` and a point of `b`. The nodes must be on the
-  /// same level, and `b` must not come before `a`.
+  /// Visits each pair of a point in `a` and a point in `b`. The nodes must be on the same level,
+  /// and `b` must not come before `a`.
   void visit_pairs(Node a, Node b, const Pairs& pairs) const {
     if (a != b && gap_of_boxes(tree_.box(a), tree_.box(b)) > pairs.reach) return;
     if (tree_.is_leaf(a)) {

@@ -47,7 +47,7 @@ Drawing draw_coloured(const ColouredPicture& picture, const PlotOptions& options
     throw Error(ErrorKind::bad_data,
                 fmt::format("{}: found {} x {} pixels, expected at least 1 x 1", raster.name,
                             raster.width, raster.height));
-  // Pixels of the raster become pixels of a PNG, unless there are too many of them.
+  // Each pixel of the raster becomes one pixel of a PNG, unless the raster has too many pixels.
   const double pixel = kWidth / static_cast<double>(std::max(kPixels, raster.width));
   const double width = pixel * static_cast<double>(raster.width);
   const double height = pixel * static_cast<double>(raster.height);

@@ -14,7 +14,7 @@
 namespace ph {
 
 /// Finds cycles for the classes of H1 in a sweep of edge links. The cycle of a generator of H^1
-/// consists of the edge that gave birth to the generator and of a path of as few older edges as
+/// consists of the edge that gave birth to the generator and of a path with as few older edges as
 /// possible.
 ///
 /// On this cycle z_g, the generator g has the value one, younger generators have the value zero,

@@ -106,8 +106,8 @@ class Lemmas {
   void find_intervals() {
     for (const auto& [of, simplex] : simplices_) {
       if (!simplex.inside.empty()) continue;
-      // A face of `of` that lies in the same interval lacks some of the vertices in `beyond`.
-      // Visits each nonempty set of these vertices.
+      // A face of the simplex `of` that lies in the same interval lacks some of the vertices in
+      // `beyond`. Visits each nonempty set of these vertices.
       for (unsigned set = 1; set < 1U << simplex.beyond.size(); ++set) {
         Vertices member = of;
         for (std::size_t i = 0; i < simplex.beyond.size(); ++i)

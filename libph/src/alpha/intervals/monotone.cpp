@@ -190,8 +190,8 @@ class SpaceRepair {
       if (name != kNone && cells_.cell_values[name >> 2] < value)
         raise({name >> 2, 0b1111, cells_.beyond[name >> 2]}, value);
   }
-  /// Raises all facets at an edge to the value of the edge. @param places the positions of the ends
-  /// of the edge in `cell`, one of the cells around it.
+  /// Raises all facets at an edge to the value of the edge. @param places the positions of the
+  /// edge's ends in `cell`, one of the cells around it.
   void look_above_edge(uint32_t cell, unsigned places) {
     const double value = cells_.edge_states[edge_at(cell, places)].value;
     const unsigned opposite = 0b1111U & ~places;

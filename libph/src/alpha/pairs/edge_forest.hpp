@@ -99,7 +99,7 @@ class EdgeForest {
     std::uint32_t edge = kNone, depth = 0;
     bool is_met = false;
   };
-  /// A summand of the coefficient of a vertex in the boundary of a chain.
+  /// A part of the coefficient that a vertex has in the boundary of a chain.
   struct AtVertex {
     std::uint32_t depth, vertex;
     Element amount;

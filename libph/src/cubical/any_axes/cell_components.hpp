@@ -13,12 +13,12 @@
 
 namespace ph::cubical {
 
-/// Persistent components of one of the two graphs of a grid. The first graph has vertices, joined
-/// by edges in the order in which the edges enter. The second graph has top cells, joined by facets
-/// in reverse order, youngest first. The second graph also has nodes that were always there. They
-/// are cells that never enter, and the outside, which has two parts if only one axis has ends.
-/// Pairs of cells within a star (arrows) give the nodes their first parents. Bridges then join
-/// components by the elder rule.
+/// Persistent components in one of a grid's two graphs. The first graph has vertices, joined by
+/// edges in the order in which the edges enter. The second graph has top cells, joined by facets in
+/// reverse order, youngest first. The second graph also has nodes that were always there. They are
+/// cells that never enter, and the outside, which has two parts if only one axis has ends. Pairs of
+/// cells within a star (arrows) give the nodes their first parents. Bridges then join components by
+/// the elder rule.
 class CellComponents {
  public:
   using Name = CellGrid::Name;

@@ -15,9 +15,9 @@
 
 namespace ph::cubical {
 
-/// Finds the persistent components of one of the two graphs of a grid. Critical cells (*bridges*)
-/// join the basins of the graph in the order of the filtration, or in reverse order (Kruskal's
-/// algorithm with the elder rule).
+/// Finds the persistent components in one of a grid's two graphs. Critical cells (*bridges*) join
+/// the basins of the graph in the order of the filtration, or in reverse order (Kruskal's algorithm
+/// with the elder rule).
 template <class Graph>
 class ComponentPairing {
  public:

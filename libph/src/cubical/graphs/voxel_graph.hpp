@@ -54,7 +54,7 @@ class VoxelGraph : public VoxelNodes<StarGrid> {
   }
 
  private:
-  // The node at the other end of an edge of the star of v.
+  // The node at the other end of an edge in the star of v.
   std::uint32_t across(std::uint32_t v, int edge) const {
     return or_outside(grid_.step_in_star(v, edge), kEdges[edge][axis_of_edge(edge)]);
   }

@@ -39,7 +39,7 @@ class VoxelNodes {
     const std::uint32_t count = 2 * grid_.layer_size();
     return {after ? grid_.size() - count : 0, count};
   }
-  /// The value of a node of a seam, in the order of the stars (GridFrame); nothing if the node
+  /// The value of a node in a seam, in the order of the stars (GridFrame); nothing if the node
   /// never enters.
   std::optional<double> seam_value(std::uint32_t v) const {
     if (!grid_.enters(v) && !grid_.is_t_construction()) return std::nullopt;

@@ -9,7 +9,7 @@ constexpr double kMostNodes = 2'147'000'000;  // ids of nodes and labels have 31
 }  // namespace
 
 bool GridFrame::can_hold(const CubicalImage& grid) {
-  // The number of nodes of the larger of the two graphs, not counting the outside.
+  // The number of nodes in the larger of the two graphs, not counting the outside.
   double nodes = 1;
   for (std::size_t k = 0; k < grid.extents.size(); ++k)
     if (GridShape::keeps_axis(grid, k))

@@ -114,7 +114,7 @@ class GridFrame {
     if (x > 0) return v - a.stride;
     return a.periodic ? v + (a.extent - 1) * a.stride : kOutside;
   }
-  /// The voxel at the other end of an edge of the star of v, or kOutside. If no step in that
+  /// The voxel at the other end of an edge in the star of v, or kOutside. If no step in that
   /// direction can leave the grid, the position of v is not checked.
   std::uint32_t step_in_star(std::uint32_t v, int edge) const {
     const int axis = axis_of_edge(edge), sign = kEdges[edge][axis];

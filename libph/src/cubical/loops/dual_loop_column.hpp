@@ -60,7 +60,7 @@ class DualLoopColumn {
                  const RunContext& context)
       : grid_(grid), free_(free), field_(field), context_(context), heap_(field, &context.memory) {}
 
-  /// Replaces the chain by the boundary of a square of T, which is an edge of the star of v.
+  /// Replaces the chain by the boundary of a square of T, which is an edge in the star of v.
   void assign_boundary(std::uint32_t v, int edge) {
     heap_.clear();
     add_coboundary(v, edge, field_.from_int(1), -1);
@@ -114,7 +114,7 @@ class DualLoopColumn {
     // T.
     return beside_first ? -kSquares[square][axis] : kSquares[square][axis];
   }
-  // Adds `scale` times the coboundary of an edge of the star of v. Leaves out the square `skip` of
+  // Adds `scale` times the coboundary of an edge in the star of v. Leaves out the square `skip` of
   // that star, unless `skip` is negative.
   void add_coboundary(std::uint32_t v, int edge, Element scale, int skip) {
     heap_.add([&](Terms& terms) {

@@ -19,7 +19,7 @@ namespace ph::cubical {
 /// the order of the filtration.
 enum class Before { value, order };
 
-/// Persistent components of one of the two graphs of a grid. Unlike `ComponentPairing`, this class
+/// Persistent components in one of a grid's two graphs. Unlike `ComponentPairing`, this class
 /// records into which component each component merges. A component is named by the basin of its
 /// oldest root.
 template <class Graph>

@@ -22,7 +22,7 @@ namespace {
 template <class Graph>
 constexpr bool kIsDual = std::is_same_v<Graph, TopGraph>;
 
-/// The components of the V-construction of an image with one axis, as sets of voxels. With one
+/// The components of an image with one axis in the V-construction, as sets of voxels. With one
 /// axis, the T-construction has the same components.
 class LineComponents {
  public:

@@ -10,7 +10,7 @@
 
 namespace ph::cubical {
 
-/// The top cells of the input as nodes of one of the two graphs, with their facets.
+/// The top cells of the input, with their facets. The top cells are nodes in one of the two graphs.
 class InputTopCells {
  public:
   explicit InputTopCells(const StarGrid& grid) : grid_(grid) {

@@ -16,8 +16,8 @@ namespace ph::cubical {
 
 /// In a grid with two axes, finds the edges that neither graph pairs. A torus has two such edges,
 /// and their classes never die. The graph of voxels passes on the edges that do not join
-/// components. The graph of top cells later visits each of these edges. If the edge joins
-/// components there, it is in a pair.
+/// components. The graph of top cells later visits each of these edges. If an edge joins components
+/// there, the edge is in a pair.
 class EdgesInNeither {
  public:
   explicit EdgesInNeither(std::pmr::memory_resource* memory) : met_once(memory) {}

@@ -133,8 +133,8 @@ class SeamForest {
     after.close();
     identify(same, roots.size(), {});
   }
-  /// Passes on the pairs that other layers can no longer change. If no seam is left, these are all
-  /// pairs.
+  /// Passes on the pairs that other layers can no longer change. If no seam is left, passes on all
+  /// remaining pairs.
   /// @param on_merge called with (bridge, root that dies); the root is null if both components were
   /// always there.
   /// @param on_cycle called with each bridge whose ends are already connected.
@@ -194,9 +194,9 @@ class SeamForest {
   }
 
   /// Roots that were always there come first. Critical cells follow, in the order of the grid. Open
-  /// roots come before all of these or after all of them, depending on the kind of graph. Their
-  /// place is chosen so that an open root counts as the youngest among roots of equal value. No
-  /// other component therefore dies because of the number of an open root.
+  /// roots come before all other roots or after them, depending on the kind of graph. Their place
+  /// is chosen so that an open root counts as the youngest among roots of equal value. No other
+  /// component therefore dies because of the number of an open root.
   std::pmr::vector<SeamRoot> roots;
   /// The number of resolved roots, which are nodes of the seam before the layers and are numbered
   /// after `roots`. The number is 0 unless these layers are about to be joined to the preceding

@@ -36,7 +36,7 @@ bool starts_with_word(std::string_view cell, std::string_view word) {
 }
 
 // For a decimal number that double cannot represent: true if the number is too small and rounds to
-// zero, false if it is too large. The sign of its decimal exponent decides.
+// zero, false if it is too large. The sign of the number's decimal exponent decides.
 bool rounds_to_zero(std::string_view cell) {
   std::size_t i = !cell.empty() && (cell[0] == '-' || cell[0] == '+') ? 1 : 0;
   std::int64_t leading = 0;  // decimal exponent of the first non-zero digit

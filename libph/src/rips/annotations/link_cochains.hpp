@@ -11,8 +11,8 @@
 
 namespace ph {
 
-/// An alternating function of two vertices of a link, which is a 1-cochain of the flag complex of
-/// the link. It is stored as a row f(x,.) for each vertex x on which it is not zero.
+/// An alternating function of two vertices of a link, that is, a 1-cochain of the link's flag
+/// complex. It is stored as a row f(x,.) for each vertex x on which it is not zero.
 template <Field K>
 class LinkPairs {
  public:
@@ -76,8 +76,8 @@ class LinkPairs {
   std::pmr::vector<Vertex> used_;
 };
 
-/// An alternating function of three vertices of a link, which is a 2-cochain of the flag complex of
-/// the link. It is stored as a row f(x,y,.) for each pair x < y on which it is not zero.
+/// An alternating function of three vertices of a link, that is, a 2-cochain of the link's flag
+/// complex. It is stored as a row f(x,y,.) for each pair x < y on which it is not zero.
 template <Field K>
 class LinkTriples {
  public:

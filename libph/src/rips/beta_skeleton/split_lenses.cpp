@@ -45,7 +45,7 @@ class SplitLenses<D>::Opener {
   using Point = typename PointTree<D>::Point;
 
   double extent(Node node) const { return S::extent(tree_.box(node)); }
-  /// A node that contains the lenses of all pairs of points of two nodes.
+  /// A node that contains the lens of each pair of a point in node a and a point in node b.
   Node holder_of_lenses(Node a, Node b, const Point& middle, double largest) const {
     const double away = 0.5 * (tree_.radius(a) + tree_.radius(b));
     return tree_.holder_of_ball(
@@ -72,8 +72,8 @@ class SplitLenses<D>::Opener {
     if (is_in_spindles<D>(w, u.data(), ru, v.data(), rv, distance)) return true;
     return sees_all_lenses(w, a, b, holder_of_lenses(a, b, middle, largest));
   }
-  /// True if w is in the lens of each pair of points of two nodes, and is joined to every other
-  /// point of the lens by an earlier edge.
+  /// True if w is in the lens of each pair of a point in node a and a point in node b, and is
+  /// joined to every other point of the lens by an earlier edge.
   bool sees_all_lenses(const double* w, Node a, Node b, Node holder) const {
     const double *u = tree_.box(a), *v = tree_.box(b);
     const double least = S::least_of_boxes(u, v) * (1 - kBeyondTies),

@@ -109,8 +109,7 @@ void RelationMatrix::transpose(const Word* relations, std::size_t words) {
 
 void RelationMatrix::substitute(Word* vectors, std::size_t words) const {
   // The reduced row of a living generator is zero, and is the sum of the original row and other
-  // rows. The vector of the generator is added to the vectors of the generators of these other
-  // rows.
+  // rows. The generator's vector is added to the vectors that belong to these other rows.
   for (std::size_t s = steps_.size(); s-- > 0;)
     for (std::size_t i = steps_[s].begin; i < end_of(s); ++i)
       // mutant: relation-dead

@@ -39,7 +39,8 @@ class LinkCover {
   std::size_t size() const { return steps_.size(); }
   const Step& operator[](std::size_t i) const { return steps_[i]; }
   /// The neighbours of the vertex of a step. For a hub, these are all its neighbours. For any other
-  /// vertex, these are the neighbours covered by earlier steps, of which there is at least one.
+  /// vertex, these are the neighbours that earlier steps cover, and there is at least one such
+  /// neighbour.
   const Word* neighbours(std::size_t i) const { return sets_.data() + i * graph_.words(); }
 
  private:

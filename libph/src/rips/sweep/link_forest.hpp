@@ -17,8 +17,7 @@ class LinkForest {
   using Vertex = std::uint32_t;
   using Word = bits::Word;
 
-  /// A part to which the next vertex is joined, and the first vertex of that part to which the next
-  /// vertex is joined.
+  /// A part that contains neighbours of the next vertex, and the first of these neighbours.
   struct Meeting {
     std::size_t part;
     Vertex at;
