@@ -51,7 +51,7 @@ void embed(const std::string& name, const Delay& delay, std::size_t dropped,
                             mark_place(name), dropped));
   const Points series = series_of(name, read);
   const auto [dimension, lag] = delay;
-  // Each point consists of the numbers of `dimension` rows.
+  // Each point consists of the numbers from `dimension` rows.
   context.memory.require(static_cast<std::size_t>(series.size()) * sizeof(double) *
                          static_cast<std::size_t>(std::min(dimension, series.rows())));
   Points points;

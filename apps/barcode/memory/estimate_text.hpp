@@ -15,7 +15,7 @@ namespace ph::barcode {
 std::string estimate_text(const Estimate& estimate, const BuiltComplex& built,
                           const std::string& description, double taken);
 
-/// For a job that ran out of memory, finds changes of the command line with which the job should
+/// For a job that ran out of memory, finds changes to the command line with which the job should
 /// fit. Reads the input again, builds the complex for each change within the limit, and estimates
 /// the memory of its computation.
 /// @return "what would fit: " or, for an image, "what may fit: ", followed by at most three

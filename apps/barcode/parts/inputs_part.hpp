@@ -57,7 +57,7 @@ class InputsPart {
   std::vector<Result> results_;
 };
 
-/// The kind of a part of inputs (see ph/detail/core/sealed_part.hpp).
+/// The name of this kind of part (see ph/detail/core/sealed_part.hpp).
 inline constexpr std::string_view kInputsKind = "inputs";
 
 }  // namespace ph::barcode

@@ -30,7 +30,7 @@ struct Plot {
 /// (not_built_in) if this build cannot draw a PNG.
 void require_known_format(const Plot& plot);
 
-/// The content of the file of a plot. @param what a barcode, a merge tree or a coloured picture.
+/// The content of a plot's file. @param what a barcode, a merge tree or a coloured picture.
 template <class What>
 std::string drawn(const Plot& plot, const What& what, const PlotOptions& options,
                   const RunContext& context) {

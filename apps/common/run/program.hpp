@@ -10,7 +10,7 @@ namespace ph::app {
 /// The facts about a program that its messages need.
 struct Program {
   std::string_view name;
-  /// A hint for when memory runs out, which names options that the program has.
+  /// A hint for users when memory runs out. It names options that the program has.
   std::string_view memory_advice;
 };
 

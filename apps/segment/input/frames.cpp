@@ -89,9 +89,9 @@ std::optional<Frame> FrameSource::next() {
   return Frame{*std::move(input), std::move(files)};
 }
 
-/// The name for the files of a frame of a list, which is the file name without extension. Later
-/// frames are unknown, so the name cannot be chosen to be unique among all of them. If an earlier
-/// frame has the same name, a number is appended.
+/// The name for the output files of a frame in a list. It is the frame's file name without its
+/// extension. Later frames are unknown, so the name cannot be chosen to be unique among all of
+/// them. If an earlier frame has the same name, a number is appended.
 std::string FrameSource::name_of(const std::string& input) {
   std::string stem = app::output_names({input}).front();
   const auto [known, is_new] = taken_.emplace(stem, 1);

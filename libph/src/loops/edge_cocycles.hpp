@@ -87,7 +87,7 @@ class EdgeCocycles {
     for (const Placed& p : placed) terms_[next[p.key]++] = p.term;
   }
 
-  /// The lifetime of the bar of each cocycle.
+  /// For each cocycle, the lifetime of its bar.
   std::span<const Lifetime> lifetimes() const { return lifetimes_; }
   std::span<const Term> on(EarlyGraph::Key key) const {
     if (offsets_.empty()) return {};

@@ -29,8 +29,8 @@ class CubeList {
   CubeList(PointsView points, double radius, const RunContext& context);
 
   /// Calls `visit(p, q)` for each pair of points in the same or in adjacent cubes. The order of the
-  /// pairs depends only on the points. The number of pairs is at most a constant times the number
-  /// of points plus the number of pairs within the radius.
+  /// pairs depends only on the points. Let s be the number of points plus the number of pairs
+  /// within the radius. The number of visits is at most a constant times s.
   template <class Visit>
   void for_each_candidate_pair(Visit&& visit, const RunContext& context) const;
 

@@ -23,7 +23,7 @@ KdTree::KdTree(PointsView points, std::span<const std::uint32_t> rows, const Run
                   points_.row(static_cast<Index>(i)).data());
     }
   };
-  if (items.size() < 1 << 15) {  // so few points are not worth a thread
+  if (items.size() < 1 << 15) {  // so few points do not justify a thread
     split_below(1, points, items);
     put(0, items.size());
     return;

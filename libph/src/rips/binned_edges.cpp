@@ -138,7 +138,7 @@ void BinnedEdges::sort_bin(std::size_t bin) const {
   FlagEdges buffer(&context_->memory);
   const Split parts = split(edges, shared_bits_, buffer);
   buffer = FlagEdges(&context_->memory);
-  constexpr std::size_t edges_a_piece = 1 << 14;  // fewer edges are not worth a thread
+  constexpr std::size_t edges_a_piece = 1 << 14;  // fewer edges do not justify a thread
   const std::size_t pieces = edges.size() / edges_a_piece + 1;
   for_each_piece("sort edges", parts.ends.size(), (parts.ends.size() + pieces - 1) / pieces,
                  *context_, [&](std::size_t first, std::size_t last) {
@@ -149,7 +149,7 @@ void BinnedEdges::sort_bin(std::size_t bin) const {
 }
 
 void BinnedEdges::sort_ahead(std::size_t bin) const {
-  constexpr std::size_t few = 1 << 14;  // fewer edges are not worth a thread
+  constexpr std::size_t few = 1 << 14;  // fewer edges do not justify a thread
   if (bin >= bin_count() || bin_begin(bin + 1) - bin_begin(bin) < few) return;
   if (thread_count(*context_) < 2) return;
   const std::lock_guard lock(lazy_->mutex);

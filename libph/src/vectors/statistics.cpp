@@ -53,7 +53,7 @@ void describe(std::vector<double> numbers, std::span<double> out) {
   out[8] = percentile_of(numbers, 90);
 }
 
-/// The entropy of the lengths of bars, which must be above 0.
+/// The entropy of the lengths of bars. All lengths must be above 0.
 double entropy_of(const std::vector<Bar>& bars) {
   LongSum total, sum;
   for (const Bar& bar : bars) total.add(bar.persistence());

@@ -34,7 +34,7 @@ void for_each_first(const Triangulation& triangulation, std::size_t cell, Use&& 
   }
 }
 
-/// The places of the ends of a cell's edge in a periodic space.
+/// In a periodic space, the places of the two ends of a cell's edge.
 NumberedEdges::Ends frame_of(const Images& images, std::size_t cell, unsigned edge) {
   const auto& places = images.of_cell[cell];
   return {places[kEdgeEnds[edge][0]], places[kEdgeEnds[edge][1]]};

@@ -103,8 +103,8 @@ struct AlphaCells {
   /// For each site, the edge with which the site is paired, or kCritical if the site is not paired.
   /// Below dimension 3, the other end of this edge is stored instead of the edge.
   RawVector<std::uint32_t> vertex_up;
-  /// In dimension 3, for each site that is paired with an edge, a facet of the interval of the site
-  /// and the edge. The entry is kNone if the interval has no other simplices.
+  /// In dimension 3, for each site that is paired with an edge, a facet in the interval that
+  /// contains the site and the edge. The entry is kNone if the interval has no other simplices.
   RawVector<std::uint32_t> vertex_facet;
 };
 

@@ -27,9 +27,9 @@ struct EdgeName {
 
 /// A chain of edges under reduction, stored as a sorted list. Columns are short, and merging short
 /// sorted lists is faster than a heap. If the pivot is paired with a triangle inside its interval,
-/// the column adds the multiple of the boundary of this triangle that cancels the pivot. Edges that
-/// join components are left out, because such an edge is never the youngest edge of a cycle. An
-/// object must not be shared by threads.
+/// the column adds the multiple of this triangle's boundary that cancels the pivot. Edges that join
+/// components are left out, because such an edge is never the youngest edge of a cycle. An object
+/// must not be shared by threads.
 template <Field K>
 class EdgeColumn {
  public:

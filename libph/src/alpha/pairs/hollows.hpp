@@ -96,7 +96,7 @@ class Hollows {
         cells_.dim() - 1, birth, value(killer), [&] { return facet_simplex(cells_, code); },
         [&] { return cell_simplex(cells_, killer); });
     if (!wants_cycle) return;
-    // The cycle is the boundary of the cells of the component, all with the same orientation.
+    // The cycle is the boundary of the component's cells, all of which have the same orientation.
     const std::int64_t sign = sign_of(code, killer);
     rings_->for_each(killer, [&](std::uint32_t t) {
       for (std::uint32_t k = 0; k <= static_cast<std::uint32_t>(cells_.dim()); ++k) {

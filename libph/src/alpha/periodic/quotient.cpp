@@ -49,9 +49,8 @@ class Quotient {
  private:
   Translation translation(uint32_t place) const { return images_.translation[place]; }
 
-  /// The translation of a cell relative to the box. On each axis, it is the median of the
-  /// translations of the vertices. All translates of a cell become the same cell when this
-  /// translation is undone.
+  /// The translation of a cell relative to the box. On each axis, it is the median of the vertices'
+  /// translations. All translates of a cell become the same cell when this translation is undone.
   Translation home(const Cell& cell) const {
     const Translation first = translation(cell[0]);
     bool is_same = true;

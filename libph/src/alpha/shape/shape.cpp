@@ -67,7 +67,7 @@ SurfaceMesh surface(const AlphaCells& cells, HasCell&& has_cell, HasFacet&& has_
 }
 
 /// Collects simplices step by step: the critical simplices that enter, their faces, all simplices
-/// of the intervals of these faces, the faces of those simplices, and so on (Bauer & Edelsbrunner
+/// in the intervals of these faces, the faces of those simplices, and so on (Bauer & Edelsbrunner
 /// 2017).
 class Wrap {
  public:

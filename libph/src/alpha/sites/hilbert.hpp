@@ -25,8 +25,8 @@ std::uint64_t spread(std::uint64_t x) {
   }
 }
 
-/// The position of a cell along the Hilbert curve of a grid with 2^bits cells per side, by the
-/// transform of Skilling, Programming the Hilbert curve, 2004. Precondition: N · bits <= 64.
+/// The position of a cell along the Hilbert curve of a grid with 2^bits cells per side, by
+/// Skilling's transform (Programming the Hilbert curve, 2004). Precondition: N · bits <= 64.
 template <std::size_t N>
 std::uint64_t hilbert_place(std::array<std::uint32_t, N> x, int bits) {
   // Converts coordinates to the transposed position: undoes rotations and reflections from the top

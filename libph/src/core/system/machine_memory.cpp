@@ -12,7 +12,7 @@
 namespace ph {
 namespace {
 
-/// The number in the first line of a file of the kernel, or nothing if the line has no number.
+/// The number in the first line of a kernel file, or nothing if the line has no number.
 std::optional<std::uint64_t> number_in(const std::string& path) {
   std::ifstream file(path);
   std::string word;

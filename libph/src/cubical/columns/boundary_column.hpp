@@ -69,8 +69,8 @@ class BoundaryColumn {
     CellGrid::Coordinates x = grid_.coordinates(cell);
     const int direction = mark.direction();
     const auto axis = static_cast<std::size_t>(direction / 2);
-    // This is the sign of the incidence of the cell in its killer. If the killer lies above the
-    // cell, the cell is the lower end of the killer.
+    // This is the sign of the cell's incidence in its killer. If the killer lies above the cell,
+    // the cell is the lower end of the killer.
     bool is_negative = direction % 2 != 0;
     for (std::size_t k = 0; k < axis; ++k) is_negative = is_negative != (x[k] % 2 != 0);
     const std::uint32_t killer = grid_.beside(cell, x[axis], direction);

@@ -34,7 +34,7 @@ class TopGraph : public TopNodes<StarGrid, 3> {
   /// the grid.
   template <class Use>
   void for_each_root(std::uint32_t v, Use&& use) const;
-  /// True if the slab knows the arrow of a node of a seam, as in VoxelNodes.
+  /// True if the slab knows the arrow of a node in a seam, as in VoxelNodes.
   bool is_known_here(std::uint32_t node) const { return cell(node).direction != Direction{}; }
   /// The two nodes that a facet in the star of a voxel joins.
   std::array<std::uint32_t, 2> ends(std::uint32_t v, std::uint32_t number) const;

@@ -48,10 +48,10 @@ inline std::size_t tasks_at_a_time(const GridFrame& frame) {
 void pair_vertices_with_edges(const StarGrid& grid, CriticalCells& edges, const RunContext& context,
                               PairSink& sink);
 
-/// Pairs facets with the top cells that kill them, by means of the components of the dual graph. In
-/// this graph, facets join top cells, youngest first. The outside and the cells that never enter
-/// were always there. Removes the paired facets from the order of `facets`, which initially lists
-/// all critical facets that kill nothing. Precondition: grid.top_dim() >= 2.
+/// Pairs facets with the top cells that kill them, using the components of the dual graph. In this
+/// graph, facets join top cells, youngest first. The outside and the cells that never enter were
+/// always there. Removes the paired facets from the order of `facets`, which initially lists all
+/// critical facets that kill nothing. Precondition: grid.top_dim() >= 2.
 void pair_facets_with_top_cells(const StarGrid& grid, CriticalCells& facets,
                                 const RunContext& context, PairSink& sink);
 

@@ -48,7 +48,7 @@ class VoxelGraph : public VoxelNodes<StarGrid> {
   void for_each_root(std::uint32_t v, Use&& use) const {
     if (StarTables::edges(grid_.star(v)) == 0) use(v, 0U);
   }
-  /// The two nodes that an edge of the star of a voxel joins.
+  /// The two nodes that an edge in a voxel's star joins.
   std::array<std::uint32_t, 2> ends(std::uint32_t v, std::uint32_t number) const {
     return {v, across(v, static_cast<int>(number))};
   }

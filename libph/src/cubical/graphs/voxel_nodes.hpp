@@ -45,7 +45,7 @@ class VoxelNodes {
     if (!grid_.enters(v) && !grid_.is_t_construction()) return std::nullopt;
     return grid_.value(v);
   }
-  /// True if the slab knows the arrow of a node of a seam.
+  /// True if the slab knows the arrow of a node in a seam.
   bool is_known_here(std::uint32_t v) const { return !grid_.is_ghost(v); }
   /// The node to which a step leads. @param u the voxel at the end of the step, or kOutside. @param
   /// sign the direction of the step.

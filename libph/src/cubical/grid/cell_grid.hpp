@@ -11,7 +11,7 @@
 
 namespace ph::cubical {
 
-/// The state of a cell of a grid, in two bytes.
+/// The state of a cell in a grid, stored in two bytes.
 class CellMark {
  public:
   /// The cell never enters.
@@ -117,7 +117,7 @@ class CellGrid {
     if (x > 0) return cell - a.stride;
     return a.periodic ? cell + (a.length - 1) * a.stride : kNone;
   }
-  /// The doubled coordinate, on the axis of the step, of the cell that `beside` returns.
+  /// For the cell that `beside` returns, the doubled coordinate on the axis of the step.
   /// Precondition: the step does not lead outside.
   std::uint32_t next(std::uint32_t x, int direction) const {
     const std::uint32_t last = axes_[static_cast<std::size_t>(direction) / 2].length - 1;

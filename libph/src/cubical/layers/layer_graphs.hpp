@@ -26,7 +26,7 @@ class LayerVoxelGraph : public LayerVoxels {
 
   const StarLinks& links() const { return links_; }
   std::uint32_t arrow(std::uint32_t v) const { return links_.arrows[v]; }
-  /// The two nodes that an edge of the star of a voxel joins.
+  /// The two nodes that an edge in a voxel's star joins.
   std::array<std::uint32_t, 2> ends(std::uint32_t v, std::uint32_t number) const;
 
  private:

@@ -27,8 +27,8 @@ struct RepresentativeSink {
       add;
   /// Adds the representative of the last bar that was kept.
   std::function<void(const RepresentedBar&)> represent;
-  /// Stores positions of voxels in the input. @return the position of the first of them among all
-  /// positions stored.
+  /// Stores positions of voxels in the input. @return the index of the first of these positions
+  /// among all stored positions.
   std::function<std::size_t(std::span<const std::uint32_t>)> store;
 };
 

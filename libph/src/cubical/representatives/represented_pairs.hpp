@@ -96,8 +96,8 @@ class RepresentedPairs {
     sink_.represent(bar_of);
   }
   // True if a copy that goes around axes with one voxel has the opposite sign. By the product rule
-  // for boundaries, each pair of an axis that the copy goes around and a later axis that the cell
-  // spans changes the sign.
+  // for boundaries, the sign changes once for each pair of axes where the copy goes around the
+  // first axis and the cell spans the second, later axis.
   bool is_turned(std::span<const Index> cell, unsigned loops) const {
     bool result = false, is_odd = false;  // the parity of the number of axes gone around
     std::size_t i = grid_.shape().loop_count();

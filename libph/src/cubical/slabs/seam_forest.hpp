@@ -55,7 +55,7 @@ struct Seam {
   std::pmr::vector<double> values;        ///< in the order of the stars
 };
 
-/// The persistent components of one of the two graphs of a grid, as far as some consecutive layers
+/// The persistent components in one of a grid's two graphs, as far as some consecutive layers
 /// determine them. Only the parts that adjacent layers may still change are stored. These parts are
 /// the components that reach a seam, and a minimum spanning forest of the bridges that join these
 /// components.

@@ -31,7 +31,7 @@ struct WholeImage {
   double limit;
   int parts, min_dim, max_dim;
   bool cells;
-  bool loops;  ///< true if bars are wanted that neither graph gives
+  bool loops;  ///< true if some wanted bars come from neither graph
   /// The first layers of the parts; empty if parts have equal size.
   std::vector<Index> first_layers = {};
 

@@ -121,7 +121,7 @@ class Lenses {
     list_far(e, found.first, holder);
     while (!far_.empty()) take_component(e, holder, found);
   }
-  /// The smallest vertex of the component of `first`.
+  /// The smallest vertex in the component of `first`.
   std::uint32_t smallest_of_first(const Edge& e, Node holder, LensComponents& components) const {
     std::vector<Position>& excluded = components.of_others;
     std::sort(excluded.begin(), excluded.end());

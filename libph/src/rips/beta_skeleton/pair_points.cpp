@@ -73,7 +73,7 @@ class Pairing {
 
   /// Computes H0 by the elder rule, and the births of H1. @param graph the edges with an empty
   /// lens, in their order.
-  /// @param generators receives the generators of the edges of the graph.
+  /// @param generators receives the generator of each edge of the graph.
   void join(std::span<const FoundEdge> graph, std::size_t vertices,
             std::pmr::vector<std::uint32_t>& generators) {
     DisjointSets sets(vertices, &context_.memory);  // the root is the oldest vertex

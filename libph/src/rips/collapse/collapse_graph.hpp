@@ -5,7 +5,7 @@
 
 #include "ph/detail/rips/rips_graph.hpp"
 
-/// The interface that an edge collapse needs of a graph whose edges may move to later values. Two
+/// The interface that an edge collapse needs from a graph whose edges may move to later values. Two
 /// classes implement it, RowGraph and ListGraph; `EdgeCollapse` in edge_collapse.cpp is a template
 /// over them.
 ///
@@ -30,7 +30,7 @@ using Neighbour = RipsAdjacency::Neighbour;
 inline constexpr Key kNever = RipsAdjacency::kNever;
 inline constexpr Vertex kNone = UINT32_MAX;
 
-/// A vertex that becomes a common neighbour of the ends of an edge at a key.
+/// A vertex that becomes a common neighbour of an edge's two ends, and the key at which it does.
 struct Arrival {
   Key key;
   Vertex vertex;

@@ -11,7 +11,7 @@
 namespace ph {
 namespace {
 
-// The number of edges that a thread takes at a time. Fewer edges are not worth a thread.
+// The number of edges that a thread takes at a time. Fewer edges do not justify a thread.
 constexpr std::size_t kPiece = 1 << 17;
 
 // The neighbours of a vertex in a link of at most 64 vertices, as bits.

@@ -14,8 +14,9 @@
 
 namespace ph {
 
-/// The neighbours of each vertex of a graph that grows edge by edge, ascending. The edges are known
-/// in advance, but their order is not. Each list therefore has exactly the room that it will need.
+/// For each vertex of a graph that grows edge by edge, the list of its neighbours, ascending. The
+/// edges are known in advance, but their order is not. Each list therefore has exactly the room
+/// that it will need.
 /// @tparam Vertex an unsigned integer type that can number all vertices.
 template <class Vertex>
 class NeighbourLists {

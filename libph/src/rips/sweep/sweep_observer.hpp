@@ -13,8 +13,8 @@ namespace ph {
 /// Thresholds at which a sweep of edge links changes its method. Results do not depend on them.
 struct SweepTuning {
   LinkLayout layout = LinkLayout::automatic;
-  /// The largest average number of terms of a cocycle per vertex for which lists are used instead
-  /// of rows.
+  /// A cocycle is stored as lists instead of rows if it has at most this many terms per vertex on
+  /// average.
   std::size_t most_terms = 64;
   /// The largest number of vertices for which active edges are stored both as rows and as lists.
   std::size_t vertices_of_active_rows = 1 << 11;
