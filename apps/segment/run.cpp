@@ -247,7 +247,8 @@ Outcome outcome_of(const Arguments& arguments, app::Session& session, const OfSt
   for (const std::string& text : warned) session.note(text);
   explain_stages(s, arguments, session);
 
-  // --explain is answered before any file is written, because its labels may not exist.
+  // --explain is answered before any file is written, because the labels that it names may not
+  // exist.
   std::optional<std::string> answer;
   if (const auto& labels = arguments.explain)
     answer = explanation(s, (*labels)[0], (*labels)[1]);

@@ -289,7 +289,7 @@ class Builder {
   const Job& job_;
   const RunContext& context_;
   const Format format_;
-  const std::vector<bool>& periodic_;  // the axes that the file of the image declares periodic
+  const std::vector<bool>& periodic_;  // the axes that the image file declares periodic
   // The numbers of the points in the input; empty if all points are present.
   const std::vector<Index>& ids_;
   const std::size_t dropped_;

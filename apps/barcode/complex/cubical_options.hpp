@@ -7,8 +7,8 @@
 
 namespace ph::barcode {
 
-/// The options for one image, from the arguments. @param periodic the axes that the file of the
-/// image declares periodic.
+/// The options for one image, from the arguments. @param periodic the axes that the image file
+/// declares periodic.
 /// @throws Error (usage) if an option needs more axes than the image has.
 CubicalOptions cubical_options(const Job& job, const Image& image,
                                const std::vector<bool>& periodic);

@@ -91,7 +91,7 @@ struct Surface {
 /// One input, and the destinations of its results. If there are several inputs, the destinations in
 /// the job are folders or patterns, and each input gets places of its own.
 struct Places {
-  std::string input = {};  ///< if empty, the inputs are the inputs of the job
+  std::string input = {};  ///< if empty, the inputs of the job are used
   std::string output = "-";
   /// The format of the barcode, once it has been determined.
   BarcodeFormat format = BarcodeFormat::csv;

@@ -33,7 +33,7 @@ void Outputs::write(const Barcode& bars, const BarcodeInfo& info, const PlotOpti
     options.kind = kind.value_or(options.kind);
     plots_[i].write(kind ? app::drawn(plot, bars, options, context) : *tree++);
   }
-  // A picture may not fit into memory. Therefore no file is completed before all pictures are
+  // Drawing a picture may run out of memory. Therefore no file is completed before all pictures are
   // drawn.
   if (barcode_) {
     write_barcode(barcode_->file(), bars, places_.format, info);

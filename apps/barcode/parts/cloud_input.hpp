@@ -10,7 +10,7 @@
 
 namespace ph::barcode {
 
-/// A point cloud of which some blocks are to be processed, and the requested results.
+/// A point cloud, some of whose blocks are to be processed, and the requested results.
 struct CloudInput {
   NamedData data;
   PointsView points;  ///< the points of `data`

@@ -8,7 +8,7 @@
 
 namespace ph::barcode {
 
-/// An image of which some layers are to be processed, and the requested results.
+/// An image, some of whose layers are to be processed, and the requested results.
 struct PartInput {
   Image image;
   ImagePartOptions options;

@@ -28,8 +28,8 @@ std::string stem(const std::string& name) {
   return dot == name.npos || dot == 0 ? name : name.substr(0, dot);
 }
 
-/// The file name with the names of its folders before it. For example, "monday/../run/a.txt"
-/// becomes "monday-run-a.txt".
+/// The file name, preceded by the names of its folders. For example, "monday/../run/a.txt" becomes
+/// "monday-run-a.txt".
 std::string name_with_folders(const std::string& path) {
   std::string joined;
   for (std::size_t begin = 0; begin < path.size();) {

@@ -9,8 +9,8 @@ namespace ph::vectorise {
 
 /// The bit for a kind of vectors.
 constexpr app::Situations situation_of(Kind kind) { return 1U << static_cast<unsigned>(kind); }
-/// The situations in addition to the kind of vectors. Parameters are fitted now, or were fitted
-/// before. An input is a barcode or an image.
+/// The situations other than the kind of vectors: parameters are fitted now, or were fitted before;
+/// an input is a barcode or an image.
 inline constexpr app::Situations kFitting = 1U << 20, kFitted = 1U << 21, kOfBarcode = 1U << 22,
                                  kOfImage = 1U << 23;
 

@@ -86,7 +86,7 @@ void write_block(const Fit& fit, const Block& block, std::span<const Bar> bars,
 /// fit.
 std::string fit_json(const Fit& fit, std::size_t dropped);
 
-/// Parses a file for `--fitted`. @throws Error (bad_data) on anything else.
+/// Parses a file for `--fitted`. @throws Error (bad_data) if the file does not contain a fit.
 Fit read_fit(const Input& input);
 
 }  // namespace ph::vectorise

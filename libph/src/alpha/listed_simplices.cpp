@@ -195,8 +195,8 @@ class CellList {
   BoundaryMatrix matrix_;
   // For each row: true if the permutation that sorted the points is odd.
   std::pmr::vector<bool> is_turned_;
-  // The rows of the vertices, indexed by site; of the edges, indexed by number; and of the facets,
-  // indexed by usual name.
+  // The rows of the vertices are indexed by site, the rows of the edges by number, and the rows of
+  // the facets by usual name.
   std::pmr::vector<Index> vertex_rows_, edge_rows_, facet_rows_;
 };
 

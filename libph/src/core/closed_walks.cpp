@@ -184,8 +184,8 @@ class Decomposition {
     return any;
   }
 
-  /// Removes all walks that can be reached from a vertex. A path never gets stuck, because the rest
-  /// of the chain is a cycle. Each vertex on the path therefore has another edge.
+  /// Removes all walks that can be reached from a vertex. The rest of the chain is a cycle. Each
+  /// vertex on a path therefore has another edge, and the path never gets stuck.
   void walk_from(std::uint32_t start) {
     path_.clear();
     place_[start] = 0;

@@ -43,7 +43,7 @@ bool have_as_many_infinite(const DiagramParts& a, const DiagramParts& b);
 void pair_infinite(const DiagramParts& a, const DiagramParts& b,
                    std::vector<std::pair<std::uint32_t, std::uint32_t>>& pairs);
 
-/// @throws Error (usage) on a number out of its range.
+/// @throws Error (usage) if a number is out of its range.
 void check(const DistanceLimits& limits, std::string_view function);
 
 inline bool is_enough(const DistanceBounds& bounds, const DistanceLimits& limits) {

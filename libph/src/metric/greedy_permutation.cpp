@@ -15,7 +15,7 @@ namespace {
 
 // The squared Euclidean distances of all points to the chosen points, computed axis by axis. The
 // compiler can vectorise the loops, because they contain neither branches nor sums across points. A
-// compiler may not reorder such sums.
+// compiler must not reorder such sums.
 class Squares {
  public:
   Squares(PointsView points, const RunContext& context)

@@ -22,9 +22,9 @@ class BoundaryReduction {
  public:
   using Name = CellGrid::Name;
 
-  /// @param columns the cells in no known pair whose boundaries are reduced, in the order of the
-  /// filtration.
-  /// @param rows the cells in no known pair one dimension lower.
+  /// @param columns the cells whose boundaries are reduced, in the order of the filtration. They
+  /// are in no known pair.
+  /// @param rows the cells one dimension lower that are in no known pair.
   BoundaryReduction(const CellGrid& grid, std::span<const Name> columns, std::span<const Name> rows,
                     const K& field, const RunContext& context)
       : grid_(grid),

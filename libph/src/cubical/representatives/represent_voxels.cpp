@@ -85,8 +85,8 @@ class Representing {
     const bool turned_around = grid_.is_t_construction();
     const VoxelGraph voxels(grid_);
     if (top < 2) {
-      // The graph of voxels is the only graph. In the T-construction, it is the dual graph, which
-      // also gives H0.
+      // With fewer than two axes, the graph of voxels is the only graph. In the T-construction, it
+      // is the dual graph and also gives H0.
       ComponentTree<VoxelGraph> tree(grid_, voxels, edges, context_);
       if (turned_around) return add_line(tree, edges);
       add_components(tree);

@@ -202,7 +202,8 @@ StoredBarcode read_barcode_rows(const Input& input, bool may_be_empty) {
 }
 
 bool has_barcode_header(const Input& input) {
-  // The first bytes are checked before the input is read as lines, because it may not be text.
+  // The first bytes are checked before the input is read as lines, because the input is not always
+  // text.
   constexpr std::size_t kProbe = 64;
   if (lower_case(input.text().substr(0, kProbe)).find("dim") == std::string::npos) return false;
   TextLines lines(input);

@@ -45,8 +45,8 @@ class Annotations {
     friend bool operator==(const Class&, const Class&) = default;
   };
 
-  /// @param edges receives the edges of non-zero class. It must be empty at first, and must outlive
-  /// this object. @param keeps_values true if for_each_value will be called.
+  /// @param edges receives the edges whose class is not zero. It must be empty at first, and must
+  /// outlive this object. @param keeps_values true if for_each_value will be called.
   Annotations(const K& field, ActiveEdges& edges, bool keeps_values,
               std::pmr::memory_resource* memory)
       : field_(field),

@@ -113,7 +113,7 @@ class Finder {
 template <int D>
 std::pmr::vector<FoundEdge> relative_neighbours(const PointTree<D>& tree, double limit,
                                                 const RunContext& context) {
-  constexpr std::size_t few = 1 << 12;  // so few points are not worth a thread
+  constexpr std::size_t few = 1 << 12;  // so few points do not justify a thread
   const std::size_t pieces = tree.size() < few ? 1 : 1024;
   std::pmr::memory_resource* const memory = &context.memory;
   std::pmr::vector<FoundEdge> edges(memory);

@@ -49,8 +49,8 @@ class LinkPrimitives {
     bool is_active = true;       ///< true if the search continues, or if the loop is still valid
     bool is_obstructed = false;  ///< true if gamma has no primitive
     bool is_found = false;       ///< true if psi is a primitive
-    // While a vertex z is added: the row psi(z,.), and the row of the values that an edge requires
-    // in addition.
+    // While a vertex z is added: the row psi(z,.), and the row of the differences between the
+    // values that an edge requires and psi(z,.).
     typename RowPool<K>::Id potential = 0, mismatch = 0;
     bool is_flat = true, is_mismatched = false;
   };
