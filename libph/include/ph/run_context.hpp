@@ -149,7 +149,7 @@ class Ticker {
   const RunContext& context_;
   Progress progress_;
   std::uint64_t pending_ = 0;
-  std::uint64_t interval_ = 1;  // steps between polls: fewer if a step takes long
+  std::uint64_t interval_ = 1;  // steps between polls; slow steps are polled more often
   std::chrono::steady_clock::time_point last_poll_;
 };
 

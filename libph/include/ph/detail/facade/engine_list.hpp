@@ -24,8 +24,8 @@ struct EngineFor : EngineFacts {
 template <Filtration F>
 std::vector<EngineFor<F>>& engines();
 
-// The complexes of libph have all engines, compiled once, because compiling every engine for every
-// field takes long.
+// The library contains all engines for the complexes of libph, compiled once. Compiling every
+// engine for every field takes a long time.
 #define PH_WITH_ALL_ENGINES(...) \
   template <>                    \
   std::vector<EngineFor<__VA_ARGS__>>& engines<__VA_ARGS__>()
