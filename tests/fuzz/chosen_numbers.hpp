@@ -10,8 +10,8 @@
 
 namespace ph::fuzz {
 
-/// Makes choices from bytes. Chosen numbers are arbitrary doubles, or lie near one another, near or
-/// on a grid, or orders of magnitude apart.
+/// Makes choices from bytes. The chosen numbers may be arbitrary doubles, close to one another, on
+/// or near a grid, or orders of magnitude apart.
 class ChosenNumbers {
  public:
   explicit ChosenNumbers(std::string_view bytes) : left_(bytes) {}
@@ -70,7 +70,7 @@ class ChosenNumbers {
 
  private:
   int signed_byte() { return static_cast<signed char>(byte()); }
-  /// The double that comes `places` after x in the order of doubles.
+  /// The double that is `places` places after x in the order of doubles.
   static double moved(double x, int places) {
     const double result =
         std::bit_cast<double>(std::bit_cast<std::uint64_t>(x) + static_cast<std::uint64_t>(places));

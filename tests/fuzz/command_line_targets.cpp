@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Any words on a command line must give options, an answer, or an error that says what is wrong
-// with the words.
+// For any words on a command line, the program must return options, an answer, or an error that
+// says what is wrong with the words.
 #include <array>
 #include <vector>
 
@@ -15,7 +15,7 @@ namespace ph::fuzz {
 namespace {
 
 /// The lines of a text as command-line arguments. As on a real command line, no argument contains a
-/// NUL.
+/// NUL byte.
 std::vector<std::string> words_of(std::string_view bytes, const char* program) {
   std::vector<std::string> words{program};
   while (!bytes.empty()) {
@@ -38,7 +38,8 @@ void check(const std::vector<std::string>& words,
     const auto answer = parse(static_cast<int>(argv.size()), argv.data(), arguments);
     require(!answer || !answer->empty(), "a command line is answered by nothing");
   } catch (const Error& error) {
-    // If an input is an existing folder, an output for each of its frames may be missing.
+    // The error no_input means that an input is an existing folder, but that the command line
+    // gives no output for each of its files.
     require(error.kind() == ErrorKind::usage || error.kind() == ErrorKind::not_built_in ||
                 error.kind() == ErrorKind::no_input,
             "a command line is no usage error");

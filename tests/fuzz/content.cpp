@@ -18,7 +18,7 @@ bool none_is_nan(const Numbers& numbers) {
   return std::none_of(numbers.begin(), numbers.end(), [](double x) { return std::isnan(x); });
 }
 
-/// True if the offsets of compressed rows ascend from 0 to `size`.
+/// True if the row offsets of a compressed sparse matrix ascend from 0 to `size`.
 bool are_offsets(const std::vector<std::size_t>& offsets, std::size_t size) {
   return !offsets.empty() && offsets.front() == 0 && offsets.back() == size &&
          std::is_sorted(offsets.begin(), offsets.end());

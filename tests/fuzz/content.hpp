@@ -11,8 +11,8 @@
 
 namespace ph::fuzz {
 
-/// The result of a reader, of any type, as rows of numbers. Two results for the same bytes are
-/// compared bit by bit; the result for a prefix is compared with the rows of the whole.
+/// The result of any reader, as rows of numbers. Two results for the same bytes are compared bit
+/// for bit. The result for a prefix is compared with the rows of the whole file.
 struct Content {
   std::string head;  ///< data outside the rows: sizes, names
   std::vector<double> numbers;
@@ -29,16 +29,17 @@ struct Content {
     for (const auto number : row) numbers.push_back(static_cast<double>(number));
   }
 
-  /// Compares bit by bit: a NaN equals itself, and zeros of different signs differ.
+  /// Compares bit for bit: a NaN equals itself, and zeros with different signs differ.
   friend bool operator==(const Content& a, const Content& b);
 };
 
-// Each function first checks what its type promises, and throws Violation if a promise is broken.
+// Each function first checks the promises of its type, and throws Violation if one of them is
+// broken.
 Content content_of(const Points& points);             ///< one point per row, all finite
 Content content_of(const DistanceMatrix& distances);  ///< the rows of the lower triangle
 Content content_of(const SparseDistances& sparse);    ///< u v d per row, ascending
 Content content_of(const Image& image);               ///< one row, in C order
-/// Grid coordinates and values, finite ones only.
+/// Grid coordinates and values of the cells with finite values.
 Content content_of(const PerseusImage& perseus);
 Content content_of(const SimplicesInput& simplices);  ///< vertices and value per row
 Content content_of(const BoundaryInput& boundary);    ///< dimension and facets per row, then values

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Runs the conformance suite on filtrations that the bytes choose.
+// Runs the conformance suite on filtrations that are built from the bytes.
 #include "ph/detail/complex/filtered_graph.hpp"
 #include "ph/detail/rips/rips_filtration.hpp"
 #include "tests/fuzz/targets.hpp"
@@ -9,7 +9,7 @@
 namespace ph::fuzz {
 namespace {
 
-/// Makes each choice from one byte; after the last byte, from a counter.
+/// Makes each choice from one byte. After the last byte, choices are made from a counter.
 class ByteChoices {
  public:
   explicit ByteChoices(std::string_view bytes) : bytes_(bytes) {}
@@ -48,7 +48,7 @@ struct Suite {
         return test::check_engines(filtration, top, field);
       case Part::contract:
         return test::check_contract(filtration, top + 1, field);
-      case Part::representatives:  // these are checked with a reduction per bar
+      case Part::representatives:  // checked with one reduction per bar
         if (count_cells(filtration, top + 1) <= 50)
           return test::check_representatives(filtration, top, field);
         return test::check_engines(filtration, top, field);
@@ -58,7 +58,8 @@ struct Suite {
 
 using Choices = test::InputGenerator<ByteChoices>;
 
-/// A monotone map from 0 … 3 to numbers or infinities, which keeps a filtration valid.
+/// A monotone map from the numbers 0 to 3 to numbers or infinities. A monotone map keeps a
+/// filtration valid.
 class Stretch {
  public:
   explicit Stretch(Choices& choices)
@@ -114,7 +115,7 @@ void check_graph(Choices& choices, bool ties, Suite suite) {
   std::vector<double> births(static_cast<std::size_t>(choices.integer(1, 8)));
   for (double& birth : births) birth = stretch(choices.value(ties));
   std::vector<WeightedEdge> edges;
-  std::set<std::pair<Index, Index>> seen;  // the suite identifies cells by their vertices
+  std::set<std::pair<Index, Index>> seen;  // the suite cannot tell parallel edges apart
   for (int left = choices.integer(0, 14); left > 0; --left) {
     const Index u = choices.integer(0, static_cast<int>(births.size()) - 1);
     const Index v = choices.integer(0, static_cast<int>(births.size()) - 1);

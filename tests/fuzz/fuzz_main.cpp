@@ -12,8 +12,8 @@ namespace {
 const ph::fuzz::Target* target = nullptr;
 }
 
-// Turns off two features of the sanitizer, because most inputs end in an exception and the features
-// would take most of the time.
+// Limits two features of the address sanitizer. Most inputs end in an exception, and for exceptions
+// the full features would take most of the time.
 extern "C" const char* __asan_default_options() {
   return "detect_stack_use_after_return=0:malloc_context_size=4";
 }

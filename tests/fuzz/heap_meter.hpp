@@ -4,17 +4,17 @@
 
 namespace ph::fuzz {
 
-/// Measures the memory that the calling thread takes while the object lives. It counts every
-/// malloc, including those of C libraries. It needs the address sanitizer, and measures nothing
-/// without it.
+/// Measures the memory that the calling thread allocates while the object lives. Every call of
+/// malloc counts, including the calls in C libraries. Without the address sanitizer, nothing is
+/// measured.
 class HeapMeter {
  public:
   HeapMeter();
   HeapMeter(const HeapMeter&) = delete;
   HeapMeter& operator=(const HeapMeter&) = delete;
   ~HeapMeter();
-  /// The peak number of bytes during the thread's last HeapMeter, beyond what the thread already
-  /// held.
+  /// The peak number of bytes during the thread's last HeapMeter, minus the bytes that the thread
+  /// held before.
   static std::size_t last_peak();
 };
 

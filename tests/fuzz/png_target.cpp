@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The checksums of a PNG would stop nearly every change before it reaches a decoder: this target
-// corrects them.
+// Corrects the checksums of a PNG before it is read. Otherwise the checksums would stop nearly
+// every change before it reaches a decoder.
 #include <vector>
 
 #include "libph/src/io/bytes/unpack.hpp"

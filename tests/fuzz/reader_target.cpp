@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Checks what must hold for every reader: it returns a result with the promised properties, or
-// fails with a message of one line that names the file.
+// Checks the properties that all readers must have: a reader returns a valid result, or fails with
+// a message of one line that names the file.
 #include <algorithm>
 #include <optional>
 
@@ -14,7 +14,7 @@ namespace ph::fuzz {
 namespace {
 
 constexpr std::size_t kBudget = std::size_t{64} << 20;
-/// Memory that is allowed in addition, for a message, the input's name and other small things.
+/// Additional memory that is allowed for a message, the input's name and other small things.
 constexpr std::size_t kFree = std::size_t{1} << 20;
 
 /// The outcome of an attempt to read.
@@ -62,13 +62,14 @@ Outcome attempt(const NamedReader& reader, std::string_view bytes, ReadOptions o
 void run_reader(std::string_view name, std::string_view bytes) {
   const NamedReader& reader = *find_reader(name);
   const Outcome strict = attempt(reader, bytes, {});
-  // Exceptions take most of the time. For this reason, not every check runs for each input.
+  // Exceptions take most of the time, so not every check runs for each input.
   if (bytes.size() % 8 == 0)
     require(strict == attempt(reader, bytes, {}), "a reader gives two results for one file");
   if (!strict.content && bytes.size() % 2 != 0) return;
-  // Bytes that are accepted strictly must also be accepted leniently, with the same meaning.
+  // Bytes that are accepted by strict reading must also be accepted by lenient reading, and must
+  // give the same result.
   ReadOptions taking{.allow_empty = true, .nan = NanPolicy::drop};
-  // This option declares a table to be a matrix, and applies only to readers that read nothing but
+  // This option declares that a table is a matrix. It applies only to readers that read nothing but
   // matrices.
   if (name == "distances" || name == "correlations" || name == "npy_distances")
     taking.symmetrise = Symmetrise::lower;

@@ -11,7 +11,7 @@
 namespace ph::fuzz {
 namespace {
 
-/// Calls a function of an input and options, and measures the memory that it takes.
+/// Calls a function with an input and options, and measures the memory that the call takes.
 template <auto read>
 Content read_with(const Input& input, const ReadOptions& options) {
   const auto metered = [&] {
@@ -43,7 +43,7 @@ Barcode barcode_of(const Input& input, const ReadOptions&) {
   return read_barcode(input, format);
 }
 
-/// A raw file needs a layout, and the input must have exactly the size of this layout.
+/// Reads a raw file with a fixed layout. The input must have exactly the size of this layout.
 Image raw(const Input& input, const ReadOptions& options) {
   return read_raw(input, {.extents = {2, 3}, .type = "i2", .skip = 4}, options);
 }
@@ -54,13 +54,13 @@ segment::SceneTree tree(const Input& input, const ReadOptions&) {
   return segment::read_tree(input);
 }
 
-/// A file of values must have a given number of values, which the caller knows.
+/// The number of values that the caller of the reader expects in a file of values.
 constexpr std::size_t kValues = 6;
 std::vector<double> values(const Input& input, const ReadOptions& options) {
   return read_values(input, kValues, options);
 }
 
-/// All numbers of a camera, and the ray of one place in the picture, if the lens has a ray there.
+/// All numbers of a camera. If the lens has a ray at one fixed place in the picture, also this ray.
 std::vector<double> camera(const Input& input, const ReadOptions&) {
   const Camera c = read_camera(input);
   std::vector<double> numbers{c.intrinsics.fx,

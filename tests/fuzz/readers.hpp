@@ -15,12 +15,12 @@ struct NamedReader {
   /// Reads under a HeapMeter and checks what the type of the result promises. Throws the reader's
   /// errors, or Violation.
   Content (*read)(const Input& input, const ReadOptions& options);
-  /// Writes the result in every format that can hold it, reads it again, and checks that it is the
-  /// same. Does nothing for types that libph does not write. Throws Violation.
+  /// Writes the result in every format that can hold it, reads it again, and checks that nothing
+  /// has changed. Does nothing for types that libph does not write. Throws Violation.
   void (*rewrite)(const Input& input, const ReadOptions& options);
 };
 
-/// All readers. A reader that chooses the format of its input occurs once per format.
+/// All readers. A reader with a choice of formats occurs once per format.
 std::span<const NamedReader> readers();
 /// Null if no reader has this name.
 const NamedReader* find_reader(std::string_view name);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // fuzz_replay CORPUS SAMPLES: runs the files in CORPUS/<target>/ through their targets, as
-// libFuzzer does, and each sample through all targets, because a file of one format is a damaged
-// file for the others. Prints the number of runs; exits with 1 if a property does not hold.
+// libFuzzer does. Also runs each sample through all targets, because for the other formats it is a
+// damaged file. Prints the number of runs, and exits with 1 if a property does not hold.
 #include <exception>
 #include <filesystem>
 #include <fstream>

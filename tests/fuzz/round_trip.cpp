@@ -70,8 +70,8 @@ Cloud read_again(const std::string& bytes, PlyData) {
   return read_ply(Input::view(bytes, "written.ply"), kTakeEmpty);
 }
 
-/// The part of a cloud that text preserves: any NaN becomes the same NaN, and zeros lose their
-/// sign.
+/// The part of a cloud that a text file preserves: all NaNs become the same NaN, and zeros lose
+/// their sign.
 Cloud as_text_has_it(Cloud cloud) {
   for (const CloudField& field : cloud.fields) {
     if (field.type != FieldType::float32 && field.type != FieldType::float64) continue;
@@ -91,7 +91,7 @@ Cloud as_text_has_it(Cloud cloud) {
   return cloud;
 }
 
-/// The cloud with empty names of fields: a name that is no single word is written in another form.
+/// The cloud with empty field names. A name that is not a single word would be changed by writing.
 Content without_names(Cloud cloud) {
   for (CloudField& field : cloud.fields) field.name.clear();
   return content_of(cloud);
@@ -110,8 +110,8 @@ void write_and_read_again(const Barcode& barcode) {
     require(content_of(again(barcode, format)) == bars_of(barcode),
             "a barcode changes when it is written and read");
   }
-  // Digits are lost only when the bars are written with six digits for the first time. The number
-  // of dimensions is limited, because the file has a line for each dimension.
+  // Digits are lost only when the bars are first rounded to six digits. Barcodes of high dimension
+  // are left out, because the file has a line for each dimension.
   constexpr int kFewDimensions = 64;
   if (!barcode.empty() && barcode[barcode.size() - 1].dim > kFewDimensions) return;
   const Barcode rounded = again(barcode, BarcodeFormat::ripser);
@@ -133,8 +133,8 @@ void write_and_read_again(const Cloud& cloud) {
     return f.type == FieldType::int64 || f.type == FieldType::uint64;
   });
   if (wide) return;  // PLY has no integers of this size
-  // The first conversion to PLY splits fields, and forgets rows and columns. Data that came from
-  // PLY stay the same.
+  // The first conversion to PLY splits fields, and loses the numbers of rows and columns. Data read
+  // from PLY no longer change.
   const Cloud split = read_again(written(cloud, PlyData::little_endian), PlyData::little_endian);
   require(split.size() == cloud.size(), "points are lost in PLY");
   require(content_of(read_again(written(split, PlyData::little_endian), PlyData::little_endian)) ==

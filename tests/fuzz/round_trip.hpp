@@ -4,8 +4,8 @@
 
 namespace ph::fuzz {
 
-// Each function writes its argument in every format that can hold it, and reads it again. Throws
-// Violation if the result differs.
+// Each function writes its argument in every format that can hold it, and reads it again. It throws
+// Violation if the result differs from the argument.
 void write_and_read_again(const Barcode& barcode);
 void write_and_read_again(const Cloud& cloud);
 void write_and_read_again(const Raster& raster);

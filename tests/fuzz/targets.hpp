@@ -21,13 +21,14 @@ const Target* find_target(std::string_view name);
 
 // Each of these targets has its own file.
 
-/// Reads some bytes strictly and leniently. A result that can be written is written and read again.
+/// Reads some bytes strictly and leniently. If a result can be written, writes it and reads it
+/// again.
 void run_reader(std::string_view reader, std::string_view bytes);
 /// Unpacks a gzip file.
 void run_gzip(std::string_view bytes);
-/// Reads a picture with its own and with corrected checksums, and as a depth image.
+/// Reads a picture with its own checksums, with corrected checksums, and as a depth image.
 void run_png(std::string_view bytes);
-/// Reads a stored tree with its own and with a corrected checksum.
+/// Reads a stored tree with its own checksum and with a corrected checksum.
 void run_tree(std::string_view bytes);
 /// Takes the lines as the words of a command line.
 void run_barcode_arguments(std::string_view bytes);
@@ -49,15 +50,15 @@ void run_inputs_part(std::string_view bytes);
 /// Chooses a small filtration. All engines must agree with the oracle, and representatives must be
 /// valid.
 void run_engines(std::string_view bytes);
-/// Compares distances of small diagrams with the best of all matchings, and computes vectors of the
-/// diagrams.
+/// Compares distances between small diagrams with the best of all matchings, and computes vectors
+/// of the diagrams.
 void run_diagrams(std::string_view bytes);
-/// Writes arrays and metadata of a report page: they must read back equal.
+/// Writes arrays and metadata of a report page, and checks that reading gives the same data.
 void run_report(std::string_view bytes);
-// Only if the C interface is built: compares its calls with those of the C++ library; some calls
-// have impossible sizes and pointers.
+// Only if the C interface is built. Compares calls of the C interface with calls of the C++
+// library. Some calls have impossible sizes and pointers.
 void run_c(std::string_view bytes);
-// Only if alpha complexes are built: chooses points with arbitrary doubles; bars and simplices must
+// Only if alpha complexes are built. Chooses points with arbitrary doubles. Bars and simplices must
 // have the properties of an alpha complex.
 void run_alpha(std::string_view bytes);
 /// Chooses points. The signs and radii of their spheres must equal the signs and radii that exact

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Tests every proper prefix of every sample. A format that states its length must reject the
-// prefix. Any other format must reject it or return the data that are present.
+// Tests every proper prefix of every sample. If a format states its length, the reader must reject
+// the prefix. For any other format, the reader must reject it or return the data that are present.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -56,7 +56,8 @@ std::optional<double> number_of(std::string_view text) {
   return value;
 }
 
-/// The cells of a text without comments and header lines; empty if a cell is not a number.
+/// The numbers in a text, without comments and header lines. Empty if a line contains both numbers
+/// and other words.
 std::optional<std::vector<double>> numbers_of(std::string_view text) {
   std::vector<double> numbers;
   std::istringstream lines{std::string(text)};
@@ -75,14 +76,15 @@ std::optional<std::vector<double>> numbers_of(std::string_view text) {
   return numbers;
 }
 
-/// The n for which the count is n (n - 1) / 2 or, for square matrices, n².
+/// The n for which `count` is n (n - 1) / 2 or, for square matrices, n².
 std::optional<std::size_t> size_for(std::size_t count, bool square) {
   for (std::size_t n = 1; n * (n - 1) / 2 <= count; ++n)
     if ((square ? n * n : n * (n - 1) / 2) == count) return n;
   return std::nullopt;
 }
 
-/// The lower triangle of the matrix whose numbers a file holds; nothing if numbers are missing.
+/// The lower triangle of the matrix in a file, as values in row order; nothing if numbers are
+/// missing.
 std::optional<std::vector<double>> triangle_of(const std::string& reader, std::string_view bytes) {
   std::optional<std::vector<double>> numbers;
   if (reader == "binary_distances") {
@@ -126,7 +128,7 @@ Rows rows_of(const Content& content) {
   for (std::size_t i = 0; i < content.rows(); ++i) {
     std::vector<double> row(content.row(i).begin(), content.row(i).end());
     for (double& x : row)
-      if (std::isnan(x)) x = -1e300;  // a number that can be ordered
+      if (std::isnan(x)) x = -1e300;  // NaN has no place in an order
     rows.insert(row);
   }
   return rows;
@@ -139,7 +141,7 @@ Rows without(const Rows& all, const Rows& some) {
   return left;
 }
 
-/// True if the last entry of a row is this number, or its last entries are the eight bytes of the
+/// True if the row ends in this number, either as its last entry or as the eight bytes of the
 /// number.
 bool ends_in(const std::vector<double>& row, double number) {
   if (row.back() == number) return true;
@@ -241,8 +243,8 @@ class Prefixes {
     }
   }
 
-  /// Checks that the result has the rows of the complete lines and at most one more row: a row of
-  /// the whole file or, for a line that was cut, a row that ends in the truncated number.
+  /// Checks that the result has the rows of the complete lines and at most one more row. This row
+  /// must be a row of the whole file or, for a truncated line, end in the truncated number.
   void check_rows(std::string_view prefix, const Content& content) {
     const Rows rows = rows_of(content);
     EXPECT_TRUE(without(lines_, rows).empty()) << "a line is lost";
@@ -255,7 +257,8 @@ class Prefixes {
     EXPECT_TRUE(ends_in(*more.begin(), *number)) << *number;
   }
 
-  /// A prefix that ends after a gzip member is a valid file with fewer members.
+  /// Checks a prefix that ends after a gzip member, and is therefore a valid file with fewer
+  /// members.
   void check_members(const Content& content) {
     ++members_;
     EXPECT_EQ(members_, 1) << "the file has two";

@@ -5,8 +5,8 @@
 
 namespace ph::fuzz {
 
-/// Thrown by a fuzz target if a property does not hold. libFuzzer does not catch it, and stops with
-/// the input; the replay reports it.
+/// Thrown by a fuzz target if a property does not hold. libFuzzer does not catch the exception, so
+/// it stops and stores the input. The replay reports the exception.
 struct Violation : std::logic_error {
   using std::logic_error::logic_error;
 };

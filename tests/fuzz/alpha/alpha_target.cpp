@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Checks alpha complexes of points with any doubles.
+// Checks alpha complexes of points whose coordinates are arbitrary doubles.
 #include "ph/persistence.hpp"
 #include "tests/fuzz/chosen_numbers.hpp"
 #include "tests/fuzz/targets.hpp"
@@ -14,7 +14,7 @@ using test::Rational;
 Rational magnitude(const Rational& x) { return x < 0 ? Rational(-x) : x; }
 
 /// Checks that faces come before cofaces, and that the Euler characteristic is 1.
-/// @return true if there is any simplex.
+/// @return true if the complex has any simplex.
 bool check_simplices(const Alpha& alpha) {
   long euler = 0, count = 0;
   for (int dim = 0; dim <= alpha.top_dim(); ++dim)
@@ -69,7 +69,8 @@ void check_definition(const Alpha& alpha, PointsView points, const std::vector<d
       require(at != oracle.values().end(), "each simplex is one of the definition");
       const Rational found(alpha.value(cell));
       const Rational square = squared ? found : Rational(found * found);
-      // alpha.hpp excludes numbers whose squares are too small or too large for doubles.
+      // The promise of alpha.hpp does not cover numbers whose squares are too small or too large
+      // for doubles.
       const Rational last(std::numeric_limits<double>::denorm_min());
       const Rational least =
           Rational(1e-300) * size + (squared ? 4 * last : Rational(last * (2 * found + last)));
@@ -80,8 +81,8 @@ void check_definition(const Alpha& alpha, PointsView points, const std::vector<d
     });
 }
 
-/// True if the coordinates and weights have few digits: arithmetic with exact fractions of longer
-/// numbers takes seconds.
+/// True if the coordinates and weights have few digits. With longer numbers, arithmetic with exact
+/// fractions would take seconds.
 bool is_of_few_digits(PointsView points, std::vector<double> numbers) {
   for (Index i = 0; i < points.rows(); ++i)
     for (Index k = 0; k < points.cols(); ++k) numbers.push_back(points(i, k));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Compares calls of the C interface, sensible and senseless, with the same calls of the C++
-// library.
+// Makes valid and invalid calls of the C interface, and compares them with the same calls of the
+// C++ library.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -49,7 +49,7 @@ Expected expected_of(Compute&& compute) {
   }
 }
 
-/// Usually one of the choices 0 to `last`, now and then an invalid one.
+/// Usually one of the choices 0 to `last`, occasionally an invalid number.
 std::int32_t choice_or_none(ChosenNumbers& chosen, int last) {
   if (chosen.choice(15) > 0) return chosen.choice(last);
   return chosen.coin() ? last + 1 : -1;
@@ -105,8 +105,8 @@ RipsOptions rips_of(const ph_options& o) {
   return rips;
 }
 
-/// True if the C interface refuses the options, because C++ cannot express them or they would
-/// silently give no bars.
+/// True if the C interface refuses the options, either because C++ cannot express them or because
+/// the result would silently have no bars.
 bool names_nothing(const ph_options& o, bool of_points) {
   return o.max_dim < -1 || o.threads < 0 || (o.max_dim >= 0 && o.min_dim > o.max_dim) ||
          (of_points ? o.distance < 0 || o.distance > PH_HAMMING
@@ -120,7 +120,7 @@ void check_failure(ph_status status) {
   require(!words.empty() && words.find('\n') == std::string_view::npos, "an error has one line");
 }
 
-/// Compares the bars with the bars from C++, and the cells as well if cells were requested.
+/// Compares the bars with the bars from C++. Also compares the cells if they were requested.
 void check_bars(const ph_barcode* found, const Barcode& expected, bool cells) {
   require(ph_barcode_size(found) == expected.size(), "as many bars as from C++");
   const ph_bar* const bars = ph_barcode_bars(found);
@@ -143,7 +143,8 @@ void check_bars(const ph_barcode* found, const Barcode& expected, bool cells) {
   require(ph_barcode_birth_cell(found, expected.size(), nullptr) == 0, "no bar has no cell");
 }
 
-/// Compares a call of C with the outcome of C++. @param call call(out) calls the C function.
+/// Compares a call of the C interface with the outcome of C++. @param call call(out) calls the C
+/// function.
 template <class CallC>
 void check(const Expected& expected, const ph_options& options, CallC&& call) {
   ph_barcode* const untouched = reinterpret_cast<ph_barcode*>(sizeof(void*));
@@ -158,7 +159,8 @@ void check(const Expected& expected, const ph_options& options, CallC&& call) {
   ph_barcode_free(found);
 }
 
-/// Numbers in memory with strides of either sign, for axes in any order, with or without gaps.
+/// An array in memory. Its axes are nested in any order, its strides have either sign, and there
+/// may be gaps between its numbers.
 template <class T>
 struct Strided {
   std::vector<T> memory;
@@ -212,8 +214,8 @@ void check_points(ChosenNumbers& chosen, const ph_options& options) {
     return ph_rips_points(data.data(), rows, columns, data.strides[0], data.strides[1], &options,
                           out);
   });
-  // Passes several inputs in one call. Each gives the same result as alone, or the call fails in
-  // the same way as the first input that fails alone.
+  // Passes several inputs in one call. Each input gives the same result as in a call of its own. If
+  // an input fails in a call of its own, the joint call fails in the same way.
   const std::vector<const double*> clouds(2, numbers.data());
   const std::vector<std::int64_t> sizes(2, rows);
   std::array<ph_barcode*, 2> all{};

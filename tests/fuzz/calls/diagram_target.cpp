@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Checks distances and vectors of persistence diagrams with any doubles.
+// Checks distances and vectors of persistence diagrams whose births and deaths are arbitrary
+// doubles.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -21,7 +22,7 @@ using Bars = std::vector<Bar>;
 
 Bars bars_of(ChosenNumbers& chosen, int most) {
   Bars bars(static_cast<std::size_t>(chosen.choice(most)));
-  // Some bars may have NaN, or die before they are born.
+  // Occasionally, bars may contain NaN or die before they are born.
   const bool may_be_none = chosen.choice(15) == 0;
   for (Bar& bar : bars) {
     bar = {0, chosen.number(), chosen.number()};
@@ -40,13 +41,13 @@ bool is_diagram(const Bars& bars) {
 
 /// The cost of matchings of bars, by the definition.
 struct Cost {
-  double order, ground;  ///< exponents; an infinite order takes the largest cost of a pair
+  double order, ground;  ///< exponents; if the order is infinite, the largest cost of a pair counts
 
   long double apart(const Bar& a, const Bar& b) const {
     const auto between = [](long double x, long double y) { return x == y ? 0 : std::abs(x - y); };
     const long double x = between(a.birth, b.birth), y = between(a.death, b.death);
     if (std::isinf(ground)) return std::max(x, y);
-    // Bars that were always alive or never die differ in only one end.
+    // If both bars have always been alive, or both never die, they differ in only one end.
     if (x == 0 || y == 0) return x + y;
     const long double large = std::max(x, y), part = std::min(x, y) / large;
     return large * std::pow(1 + std::pow(part, static_cast<long double>(ground)), 1.0L / ground);
@@ -91,7 +92,7 @@ long double by_all_matchings(const Bars& a, const Bars& b, const Cost& cost) {
   return std::isinf(cost.order) ? sum : std::pow(sum, 1.0L / cost.order);
 }
 
-/// True if sums of powers are neither infinite nor zero as doubles, because otherwise the results
+/// True if sums of powers are neither infinite nor zero as doubles. Otherwise the results would
 /// have no correct digits.
 bool is_moderate(const Bars& a, const Bars& b, double order) {
   constexpr double large = 1e150, small = 1e-150;
@@ -140,14 +141,15 @@ void check_wasserstein(const Bars& a, const Bars& b, const WassersteinOptions& o
   require(found.lower <= found.value && found.lower >= 0, "bounds are none");
   if (!is_moderate(a, b, options.order)) return;
   const long double expected = by_all_matchings(a, b, {options.order, options.ground});
-  // The cost of pairing every bar with the diagonal.
+  // Computes the cost of pairing every bar with the diagonal.
   long double scale = 0;
   const Cost cost{options.order, options.ground};
   for (const Bars* bars : {&a, &b})
     for (const Bar& bar : *bars)
       if (std::isfinite(bar.birth) && std::isfinite(bar.death))
         scale = cost.sum(scale, cost.power(cost.from_diagonal(bar)));
-  // ph/distances.hpp promises that p-th powers agree to 2e-15 of this cost; this test allows 1e-13.
+  // ph/distances.hpp promises that p-th powers are accurate to 2e-15 of this cost. This test allows
+  // an error of 1e-13.
   const long double rounding = std::pow(1e-13L * scale, 1.0L / options.order);
   require(std::isinf(expected) ? found.value == expected
                                : found.value >= expected * (1 - 1e-9L) - rounding,
@@ -185,7 +187,7 @@ void check_vectors(const Bars& a, const Bars& b, ChosenNumbers& chosen) {
     const Grid grid = fit_grid(both, out.size());
     betti_curve(a, grid, out);
     are_numbers();
-    // Checks that no count of living bars is negative.
+    // Checks that the number of living bars is never negative.
     for (std::size_t k = 0; k < out.size(); ++k) require(out[k] >= 0, "a negative Betti number");
     life_entropy_curve(a, grid, out);
     are_numbers();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Checks the contents of a report page: arrays of any numbers, and texts of any bytes.
+// Checks the contents of a report page: arrays of arbitrary numbers, and texts of arbitrary bytes.
 #include <algorithm>
 #include <cstring>
 #include <string>
@@ -20,8 +20,8 @@ namespace {
 
 using namespace report;
 
-/// Writes an array and reads it back: the numbers are equal bit by bit, and the element holds
-/// nothing else.
+/// Writes an array and reads it back. The numbers must be equal bit for bit, and the HTML element
+/// must contain nothing else.
 template <class T>
 void check_array(ChosenNumbers& chosen) {
   const auto rows = static_cast<std::size_t>(chosen.choice(9)),
@@ -56,7 +56,8 @@ bool is_ascii(std::string_view text) {
   return std::ranges::all_of(text, [](char c) { return static_cast<unsigned char>(c) < 0x80; });
 }
 
-/// Checks that the metadata are JSON without tags, with the texts and numbers of the input.
+/// Checks that the metadata are JSON without HTML tags, and contain the texts and numbers of the
+/// input.
 void check_metadata(ChosenNumbers& chosen) {
   Metadata meta;
   meta.title = text_of(chosen);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Checks parts that processes send to each other or store in files. A checksum would reject every
-// change before any other check. For this reason, the bytes are the content of a part, and the
-// checksum is computed.
+// Checks parts that processes send to each other or store in files. The checksum of a part would
+// reject every change before any other check. For this reason, the fuzzer supplies only the content
+// of a part, and the checksum is computed here.
 #include <algorithm>
 #include <utility>
 #include <vector>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Checks files that the programs store for their own use, and other small files: merge trees of
+// Checks files that the programs store for later runs, and other small files: merge trees of
 // scenes, fits of vectors, groups of barcodes.
 #include <algorithm>
 #include <memory_resource>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Alpha complexes of difficult points. Rounding, exact signs, or the running time make them
-// difficult.
+// Alpha complexes of points that are difficult because of rounding, exact signs or the running
+// time.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -14,7 +14,7 @@
 namespace ph::test {
 namespace {
 
-/// Random points on the unit sphere, up to rounding.
+/// Random points that are on the unit sphere up to rounding.
 Points on_sphere(Index n, std::uint64_t seed) {
   Generator random(seed);
   Points points(n, 3);
@@ -29,7 +29,7 @@ Points on_sphere(Index n, std::uint64_t seed) {
   return points;
 }
 
-// Rounding gives many simplices values in the wrong order.
+// Without a correction, rounding would put the values of many simplices in the wrong order.
 TEST(AlphaAdverse, PointsNearlyOnASphere) {
   const Alpha alpha(on_sphere(400, 5));
   check_contract(alpha, 3, 2);
@@ -58,7 +58,7 @@ TEST(AlphaAdverse, ManySimplicesOfNearlyOneValueAreInOrder) {
   EXPECT_NO_THROW(Alpha(on_sphere(20'000, 6)).listed());
 }
 
-// Compares the bars with the bars that another engine finds in the list of all cells. The list
+// Compares the bars with the bars that another engine computes from the list of all cells. The list
 // refuses a face that enters after a coface.
 void check_adverse(const Points& points, std::size_t cells) {
   const Alpha alpha(points);
@@ -92,8 +92,8 @@ TEST(AlphaAdverse, PlanesButForTheLastPlace) {
   check_adverse(points, 400);
 }
 
-// Points with integer coordinates exactly on one sphere. For most simplices, the centre of the
-// empty sphere is outside the simplex.
+// Points with integer coordinates that lie exactly on one sphere. For most simplices, the centre of
+// the empty sphere is outside the simplex.
 TEST(AlphaAdverse, AllPointsOnOneSphere) {
   constexpr int radius = 45, squared = radius * radius;
   std::vector<double> on;
@@ -153,7 +153,8 @@ TEST(AlphaAdverse, WeightedPointsThatAreCloseBesideAFarOne) {
   }
 }
 
-// All points but one lie in one cell of the space-filling curve that orders points.
+// All points but one lie in one cell of the space-filling curve that determines the order of the
+// points.
 TEST(AlphaAdverse, CopiesWithinACellOfTheCurve) {
   Points points(62, 3);
   for (Index i = 1; i < 61; ++i) points(i, 0) = 1e-9 * static_cast<double>(7 * i % 20);
@@ -176,8 +177,8 @@ TEST(AlphaAdverse, PointsNearlyOnACircle) {
             "");
 }
 
-// Nearly all points are orthogonal to the same sphere. As a result, vertices enter late and at
-// nearly the same value.
+// Nearly all points are orthogonal to the same sphere. As a result, vertices enter late, and their
+// values are nearly the same.
 TEST(AlphaAdverse, WeightedPointsNearlyOnASphere) {
   int late = 0;
   for_each_seed(20, [&](Generator& random, bool, std::int64_t) {
@@ -202,7 +203,7 @@ TEST(AlphaAdverse, WeightedPointsNearlyOnASphere) {
   EXPECT_TRUE(is_enough(late, 100)) << late;
 }
 
-// Edges and vertices that enter late have the same value up to rounding.
+// Edges and vertices that enter late have equal values up to rounding.
 TEST(AlphaAdverse, WeightedDecimals) {
   for_each_seed(60, [&](Generator& random, bool, std::int64_t) {
     Points points(12, 3);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-// The alpha complex of a few points, computed from its definition with exact numbers. It shares
-// nothing with libph but the type of the points.
+// The alpha complex of a few points, computed from its definition with exact numbers. The only code
+// that it shares with libph is the type of the points.
 #include <algorithm>
 #include <boost/multiprecision/cpp_int.hpp>
 #include <map>
@@ -74,7 +74,7 @@ struct OracleBar {
 };
 
 /// The bars of positive length over Z/p, by the standard reduction.
-/// @param order simplices with their values, faces first.
+/// @param order the simplices with their values, each simplex after its faces.
 /// @param visit_facets(simplex, visit) calls visit(facet, sign) for each facet.
 template <class Simplex, class Dim, class VisitFacets>
 std::vector<OracleBar> oracle_bars(const std::vector<std::pair<Rational, Simplex>>& order, int p,
@@ -110,11 +110,12 @@ std::vector<OracleBar> oracle_bars(const std::vector<std::pair<Rational, Simplex
   return result;
 }
 
-/// A simplex is a set of points, stored as bits. It is in the complex if the Voronoi cells (power
-/// cells) of its points meet. Its value is the least power of a point in the intersection with
-/// respect to the points of the simplex. All such simplices are listed, although a triangulation
-/// has fewer for cospherical points. The simplices up to a value form the nerve of the balls
-/// restricted to Voronoi cells, which has the homology of the union of the balls.
+/// A simplex is a set of points, stored as bits. It is in the complex if the Voronoi cells (with
+/// weights, the power cells) of its points meet. Its value is the least power in the intersection,
+/// that is, the least power of a place there with respect to the points of the simplex. All such
+/// simplices are listed, although a triangulation has fewer for cospherical points. The simplices
+/// up to a value form the nerve of the balls restricted to Voronoi cells, and this nerve has the
+/// homology of the union of the balls.
 class AlphaOracle {
  public:
   AlphaOracle(PointsView points, const std::vector<double>& weights) {
@@ -136,14 +137,14 @@ class AlphaOracle {
   /// The value of each simplex.
   const std::map<unsigned, Rational>& values() const { return values_; }
 
-  /// True if the centre of some sphere has less power with respect to this point than with respect
-  /// to every other point. A hidden point has no such centre.
+  /// True if the centre of some empty sphere has less power with respect to this point than with
+  /// respect to every other point. A hidden point has no such centre.
   bool is_ever_alone(std::size_t point) const {
     return std::ranges::any_of(spheres_, [&](const auto& s) { return s.on == 1U << point; });
   }
 
-  /// The rounded centres and squared radii of the spheres through each set of affinely independent
-  /// points, including spheres with other points inside.
+  /// The rounded centres and squared radii of the smallest spheres through all sets of affinely
+  /// independent points, including spheres with other points inside.
   std::vector<std::pair<std::vector<double>, double>> centres() const {
     std::vector<std::pair<std::vector<double>, double>> result;
     for (unsigned set = 1; set < 1U << points_.size(); ++set)
@@ -196,7 +197,8 @@ class AlphaOracle {
     return sphere ? std::optional(sphere->centre) : std::nullopt;
   }
 
-  /// Stores the spheres at whose centres a least power is attained.
+  /// Stores the empty spheres. The least power of each intersection of cells is attained at a
+  /// centre of such a sphere.
   void find_spheres(std::size_t dim) {
     for (unsigned set = 1; set < 1U << points_.size(); ++set) {
       if (__builtin_popcount(set) > static_cast<int>(dim) + 1) continue;

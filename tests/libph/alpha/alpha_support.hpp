@@ -21,7 +21,7 @@ struct Cloud {
 
 /// A few points of a random kind: anywhere; on a small grid, where many points coincide or lie on
 /// the same sphere, plane or line; on a circle, a sphere or a line; in a plane in space; on a grid
-/// that doubles cannot represent. For each kind, some points are duplicated.
+/// whose coordinates are not exact as doubles. For each kind, some points are duplicated.
 inline Cloud any_cloud(Generator& random, Index most, bool weighted) {
   const Index dim = random.integer(1, 5) == 1 ? 1 : random.integer(2, 3);
   const Index n = random.integer(1, static_cast<int>(most));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Alpha complexes: compares their engine with the oracle for all filtrations, and checks properties
-// that hold for any points.
+// Alpha complexes: compares their own engine with the oracle for any filtration, and checks
+// properties that hold for any points.
 #include "ph/alpha.hpp"
 
 #include <gtest/gtest.h>
@@ -41,7 +41,7 @@ TEST(Alpha, EveryEngineFindsTheBarsOfTheOracle) {
       EXPECT_EQ(first_difference(persistence(alpha, {.field = field, .engine = engine.id}), oracle),
                 "");
     }
-    // Compares the result for fewer dimensions.
+    // Compares the result if fewer dimensions are requested.
     for (int dim = 0; dim <= 2; ++dim) {
       const Barcode part = persistence(
           alpha, {.max_dim = dim, .min_dim = dim, .field = field, .engine = Engine::gradient});
@@ -50,7 +50,7 @@ TEST(Alpha, EveryEngineFindsTheBarsOfTheOracle) {
   });
 }
 
-// If all intervals have different values, the pairs are the same cell by cell.
+// If no two intervals have the same value, the pairs are equal cell by cell.
 TEST(Alpha, CellsAreThoseOfTheOracle) {
   for_each_seed(40, [](Generator& random, bool weighted, std::int64_t field) {
     Cloud cloud{"", random.points(25, random.integer(2, 3), false), {}};
@@ -74,8 +74,8 @@ TEST(Alpha, CyclesAreCycles) {
   });
 }
 
-// With ties, the bars may name other cells than the oracle does. A representative must still be a
-// cycle at its value.
+// With ties, the bars may name other cells than the oracle does. Each representative must still be
+// a cycle that is born at the birth of its bar.
 TEST(Alpha, CyclesAmongTies) {
   for_each_seed(60, [](Generator& random, bool weighted, std::int64_t field) {
     const Cloud cloud = any_cloud(random, 25, weighted);
@@ -144,8 +144,8 @@ TEST(Alpha, TranslationOfAGridIsExact) {
     }
   const Barcode bars = persistence(Alpha(grid));
   EXPECT_EQ(first_difference(persistence(Alpha(moved)), bars), "");
-  // 124 edges merge components at ½, 12·25 − 124 loops are filled by squares at √½, and 64 voids by
-  // cubes at √¾.
+  // 124 edges merge components at ½. The other 12·25 − 124 edges create loops, which squares fill
+  // at √½. Cubes fill 64 voids at √¾.
   EXPECT_EQ(bars.bars(0).size(), 125U);
   EXPECT_EQ(bars.bars(1).size(), 176U);
   EXPECT_EQ(bars.bars(2).size(), 64U);
@@ -166,7 +166,7 @@ TEST(Alpha, ComponentsAreThoseOfHalfTheDistances) {
 TEST(Alpha, PlanesAndLinesInSpace) {
   const Points plane = uniform_points(200, 2, 4), line = uniform_points(50, 1, 5);
   Points in_space(200, 3), on_line(50, 3);
-  for (Index i = 0; i < 200; ++i) {  // the plane, turned in space without rounding
+  for (Index i = 0; i < 200; ++i) {  // the plane, rotated in space without rounding
     in_space(i, 1) = plane(i, 0);
     in_space(i, 2) = plane(i, 1);
   }
@@ -221,8 +221,9 @@ TEST(Alpha, CopiesJoinAtZero) {
 }
 
 TEST(Alpha, HiddenPointsAreNamed) {
-  // Up to the value 7.25, the power of the first point is less than the power of the second point.
-  // From 4.67 on, the power of the third point is less than both other powers.
+  // Let x be the first coordinate of a place. For x up to 7.25, the power with respect to the first
+  // point is less than with respect to the second. For x above 4.67, the power with respect to the
+  // third point is less than both.
   const Alpha alpha(Points{{0, 0, 0}, {0.5, 0, 0}, {9, 0, 0}, {0, 0, 0}},
                     {.weights = {4, -3, 1, 3}, .unit = AlphaOptions::Unit::squared});
   EXPECT_EQ(std::vector<std::uint32_t>(alpha.hidden().begin(), alpha.hidden().end()),
@@ -297,7 +298,7 @@ TEST(Alpha, OtherValues) {
         cech.append_input_cell(dim, cell, simplex);
         EXPECT_NEAR(cech.value(cell), smallest_ball(points, simplex), 1e-10);
       });
-    // If values are tied, rounding may create bars as short as rounding errors.
+    // If values are tied, rounding may create bars that are no longer than the rounding errors.
     const auto lasting = [](const Barcode& bars) {
       std::vector<Bar> result(bars.begin(), bars.end());
       std::erase_if(result, [](const Bar& b) { return b.persistence() < 1e-9; });

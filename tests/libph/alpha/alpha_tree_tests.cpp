@@ -19,7 +19,7 @@ double meeting(const Points& points, const std::vector<double>& weights, Index u
   for (Index k = 0; k < points.cols(); ++k) square += std::pow(points(u, k) - points(v, k), 2);
   if (weights.empty()) return square / 4;
   const double a = weights[static_cast<std::size_t>(u)], b = weights[static_cast<std::size_t>(v)];
-  // The smaller ball is born inside the other.
+  // The smaller ball appears inside the other ball.
   if (std::abs(a - b) >= square) return std::max(-a, -b);
   return std::pow((square + a - b) / 2, 2) / square - a;
 }
@@ -33,7 +33,7 @@ TEST(AlphaTree, VerticesArePoints) {
     ASSERT_EQ(tree.size(), cloud.points.rows());
     std::vector<bool> is_hidden(tree.births.size());
     for (const std::uint32_t v : alpha.hidden()) is_hidden[v] = true;
-    // A ball may be born inside others and become visible later.
+    // A ball may appear inside other balls and reach their surface only later.
     for (std::size_t v = 0; v < is_hidden.size(); ++v)
       if (is_hidden[v] || !weighted)
         EXPECT_EQ(tree.births[v], is_hidden[v] ? kInfinity : 0.0);

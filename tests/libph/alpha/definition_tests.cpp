@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Compares values and bars with the definition in exact numbers. PH_TEST_SEEDS=50 tries 20 000 sets
-// of points.
+// Compares values and bars with the definition, computed with exact numbers. With PH_TEST_SEEDS=50,
+// the test tries 20 000 sets of points.
 #include <gtest/gtest.h>
 
 #include "tests/libph/alpha/alpha_oracle.hpp"
@@ -11,7 +11,8 @@
 namespace ph::test {
 namespace {
 
-/// The tolerance for values: rounding errors relative to the largest coordinates and weights.
+/// The tolerance for values: the rounding errors are relative to the largest coordinates and
+/// weights.
 double tolerance(const Cloud& cloud) {
   double most = largest_coordinate(cloud.points);
   most *= most;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-// Compares the signs and radii of the faces of alpha complexes with exact integers.
+// Compares the signs and radii of the faces of alpha complexes with results in exact integers.
 #include <array>
 #include <boost/multiprecision/cpp_int.hpp>
 #include <cmath>
@@ -16,8 +16,8 @@ namespace ph::test {
 using Integer = boost::multiprecision::cpp_int;
 using IntegerPoint = std::array<Integer, 3>;
 
-/// The least number of bits: coordinates are stored as multiples of 2^-bits, and weights as
-/// multiples of the square of 2^-bits.
+/// The least number of bits after the binary point. Coordinates are stored as multiples of 2^-bits,
+/// and weights as multiples of 2^(-2 bits).
 inline constexpr int kLeastBits = 540;
 
 inline int bits_of(double x) {
@@ -113,7 +113,7 @@ class Faces {
       weights.push_back(weights_[v]);
     }
     const auto exact = integer_sphere(points, weights);
-    if (!exact) return "";  // a flat simplex, which is in no triangulation
+    if (!exact) return "";  // a flat simplex, which no triangulation contains
     std::uint8_t beyond = 0;
     for (std::size_t k = 0; k < face.size(); ++k)
       if (exact->barycentric[k] < 0) beyond = static_cast<std::uint8_t>(beyond | 1U << k);
@@ -144,8 +144,8 @@ class Faces {
     return {spheres_.triangle_radius(face[0], face[1], face[2]),
             spheres_.beyond_triangle(face[0], face[1], face[2])};
   }
-  /// True if the number is exact up to a factor of 1 ± 2^-38, or up to 1e-300 in units of the
-  /// largest coordinate, below which squares underflow.
+  /// True if the number is exact up to a factor of 1 ± 2^-38. In units of the largest coordinate,
+  /// an error of 1e-300 is also allowed, because smaller squares underflow.
   bool is_near(double found, const IntegerSphere& exact,
                const std::vector<Integer>& weights) const {
     constexpr double largest = std::numeric_limits<double>::max();

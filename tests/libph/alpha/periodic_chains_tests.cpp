@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Representatives in periodic spaces. They are checked with the vertices that users see and the
-// signs that vertices define. The checks do not use the library's own incidences.
+// Representatives in periodic spaces. They are checked with the vertices that users see and with
+// the signs that these vertices define. The checks do not use the library's own incidences.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -13,7 +13,7 @@
 namespace ph::test {
 namespace {
 
-// The coefficient of each cell, which is identified by its ascending vertices.
+// The coefficient of each cell. The cell is identified by its ascending vertices.
 using Chain = std::map<std::vector<Index>, std::int64_t>;
 
 Chain facets_of(const std::vector<Index>& cell) {

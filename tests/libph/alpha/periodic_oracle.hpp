@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 // The alpha complex of a few points in a periodic space, computed from its definition with exact
-// numbers. It shares nothing with libph but the type of the points.
+// numbers. The only code that it shares with libph is the type of the points.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -25,9 +25,10 @@ struct Image {
   friend bool operator==(const Image&, const Image&) = default;
 };
 
-/// The points are repeated periodically in space. A simplex is a set of images on an empty sphere,
-/// up to translation. All such simplices are listed up to the radius at which the balls cover the
-/// convex hull, because nothing changes beyond it.
+/// The points are repeated periodically in space. A simplex is a set of images that lie on an empty
+/// sphere. Two sets that differ by a translation by periods are the same simplex. The simplices are
+/// listed up to the radius at which the balls cover the convex hull, because nothing changes beyond
+/// this radius.
 class PeriodicOracle {
  public:
   /// Images in ascending order; the first image is not translated.
@@ -109,8 +110,8 @@ class PeriodicOracle {
     return simplex;
   }
 
-  /// Finds the images whose squared distance to a point in the box is at most `squared`. @return
-  /// the index of the point among these images.
+  /// Finds the images whose squared distance to a point in the box is at most `squared`.
+  /// @return the index of the point among these images.
   std::size_t find_neighbours(std::size_t of, const Rational& squared) {
     neighbours_.clear();
     places_.clear();
@@ -148,7 +149,8 @@ class PeriodicOracle {
 
   using Places = std::vector<std::size_t>;  // indices of some neighbours
 
-  /// Adds the spheres of some images, and of these images together with neighbours from `next` on.
+  /// Adds the spheres through the images in `set`, and through these images together with
+  /// neighbours from the index `next` on.
   void add_spheres(const Places& set, std::size_t next) {
     if (!add_sphere(set) || set.size() > period_.size()) return;
     for (std::size_t i = next; i < neighbours_.size(); ++i) {
@@ -162,7 +164,7 @@ class PeriodicOracle {
   /// @return true if a larger set of images may have an empty sphere of at most the required
   /// radius.
   bool add_sphere(const Places& set) {
-    // Most spheres are too large or not empty, and doubles are enough to show it.
+    // Most spheres are too large or not empty, and arithmetic with doubles is enough to show this.
     constexpr double flat = 1e-6, room = 1e-6;
     if (const auto centre = centre_of<double>(set, flat, rounded_, rounded_weights_)) {
       const auto power_of = [&](std::size_t i) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Alpha complexes of periodic spaces: compares them with the definition and with engines for any
-// complex, and checks properties that hold for any points.
+// Alpha complexes of periodic spaces: compares them with the definition and with engines that work
+// for any complex, and checks properties that hold for any points.
 #include <gtest/gtest.h>
 
 #include <numeric>
@@ -32,7 +32,7 @@ struct PeriodicCloud {
 };
 
 /// A few points inside and outside a box with some periodic axes: anywhere; on a grid, with copies
-/// and points on the border; in layers; on a grid that doubles cannot represent.
+/// and points on the border; in layers; on a grid whose coordinates are not exact as doubles.
 PeriodicCloud any_periodic_cloud(Generator& random, Index dim, Index most, bool weighted) {
   PeriodicCloud cloud{"", Points(random.integer(1, static_cast<int>(most)), dim), {}, {}};
   const int kind = random.integer(0, 3);
@@ -74,8 +74,9 @@ void expect_betti_numbers(const Barcode& bars, int closed, std::size_t component
 
 void check_definition(const PeriodicCloud& cloud) {
   const Alpha alpha(cloud.points, cloud.options());
-  // The oracle takes every subset of the points on a sphere for a cell. Copies of points are on the
-  // same sphere, so its cells may have more than three dimensions. Such clouds are skipped.
+  // For the oracle, every subset of the points on an empty sphere is a cell. Copies of a point are
+  // on the same sphere, so cells of the oracle may have more than three dimensions. Clouds with
+  // such cells are skipped.
   if (static_cast<int>(alpha.copies().size()) + alpha.top_dim() > 3) return;
   const PeriodicOracle oracle(cloud.points, cloud.period, cloud.weights);
   double size = 1;
@@ -86,8 +87,8 @@ void check_definition(const PeriodicCloud& cloud) {
     ASSERT_NO_FATAL_FAILURE(expect_bars(bars, oracle.bars(p), absolute));
     expect_betti_numbers(bars, cloud.closed());
   }
-  // Each cell must be in the oracle's complex, and no cell may be missing. Rounding may move points
-  // off a sphere, and then the cells may differ.
+  // Each cell must be in the oracle's complex, and no cell may be missing. On a grid of decimals,
+  // rounding may move points off a sphere, so the cells may differ. Such clouds are skipped.
   if (cloud.name[0] == 'd') return;
   std::vector<std::pair<std::vector<Index>, double>> left;
   for (const auto& [simplex, value] : oracle.values()) {
@@ -159,7 +160,7 @@ TEST(Periodic, EveryEngineFindsTheBarsOfTheOracle) {
   });
 }
 
-// The images of the point form a lattice. Its edge lengths and the radii of its triangles and
+// The images of the point form a lattice. The edge lengths and the radii of the triangles and
 // tetrahedra were computed by hand.
 TEST(Periodic, OnePointIsALattice) {
   const Barcode circle = persistence(Alpha(Points{{7.5}}, {.period = {2}}));
@@ -196,7 +197,7 @@ TEST(Periodic, OneToTenPoints) {
     }
 }
 
-// A box with one side doubled holds each point and each cell twice.
+// If the box is doubled along one axis, it contains each point and each cell twice.
 TEST(Periodic, TwiceTheLengthIsTwiceTheSame) {
   for_each_seed(40, [](Generator& random, bool ties, std::int64_t) {
     const Index dim = random.integer(1, 3);
@@ -236,8 +237,8 @@ TEST(Periodic, TwiceTheLengthIsTwiceTheSame) {
   });
 }
 
-// The numbers are such that translations are exact. Values may still differ by rounding, because
-// they are computed from the vertices in another order.
+// The numbers are chosen such that translations are exact. Rounding may still change the values,
+// because they are computed from the vertices in another order.
 TEST(Periodic, TranslationChangesNothing) {
   for_each_seed(60, [](Generator& random, bool ties, std::int64_t) {
     const Index dim = random.integer(1, 3), n = random.integer(1, 60);
@@ -265,8 +266,8 @@ TEST(Periodic, TranslationChangesNothing) {
   });
 }
 
-// Tests nearly flat layers, and points that are far apart, because spheres are huge near the ends
-// of axes that are not periodic.
+// Tests nearly flat layers, and points that are far apart. Near the ends of an axis that is not
+// periodic, spheres are huge.
 TEST(Periodic, CylindersAndSlabs) {
   for_each_seed(16, [](Generator& random, bool is_flat, std::int64_t field) {
     Points points = random.points(200, 3, false);
@@ -363,8 +364,8 @@ TEST(Periodic, UnitsArePowersOfTwoExactly) {
   }
 }
 
-// Points far from the faces of their box get no images beyond the faces. The code must notice that
-// the space continues there.
+// If a margin is too small, points far from the faces of their box get no images beyond the faces.
+// The code must notice that the space continues there.
 TEST(Periodic, TooFewImagesAreNoticed) {
   const RunContext context;
   const Points points = uniform_points(30, 3, 12);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Compares alpha shapes and wraps with the simplices themselves.
+// Compares alpha shapes and wraps with sets of simplices that are found by the definition.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -37,8 +37,8 @@ std::vector<Simplex> facets_of(const Simplex& simplex) {
   return facets;
 }
 
-/// For each triangle that is not a facet of exactly two tetrahedra of a set, the number of these
-/// tetrahedra.
+/// The triangles that are not facets of exactly two tetrahedra of the set. For each triangle, the
+/// number of tetrahedra of which it is a facet.
 std::map<Simplex, int> surface_of(const std::set<Simplex>& set) {
   std::map<Simplex, int> sides;
   for (const Simplex& simplex : set)
@@ -60,7 +60,7 @@ void expect_surface(const SurfaceMesh& mesh, const std::set<Simplex>& set) {
   EXPECT_EQ(found, surface_of(set));
 }
 
-/// Six times the volume inside the regular triangles.
+/// Six times the volume enclosed by the regular triangles.
 double volume(const Points& points, const SurfaceMesh& mesh) {
   double sum = 0;
   for (std::size_t i = 0; i < mesh.regular; ++i) {
@@ -87,8 +87,8 @@ TEST(AlphaShapes, AreTheSurfacesOfTheSimplices) {
   });
 }
 
-// In general position, each value belongs to one interval of simplices, and a simplex that is alone
-// in its interval is critical.
+// In general position, each interval of simplices has its own value. A simplex that is alone in its
+// interval is critical.
 TEST(AlphaShapes, WrapsAreWhatLiesBelowCriticalSimplices) {
   for_each_seed(40, [](Generator& random, bool weighted, std::int64_t) {
     Cloud cloud{"", random.points(40, 3, false), {}};
@@ -128,7 +128,7 @@ TEST(AlphaShapes, FaceOutwards) {
   EXPECT_EQ(volume(grid, cube), 6 * 64.0);
   EXPECT_EQ(cube.regular, cube.triangles.size());
   EXPECT_EQ(cube.triangles.size(), 2 * 6 * 16U);
-  // Before cubes are filled, their squares are surfaces without a solid.
+  // Before the cubes are filled, their squares are surfaces that enclose no solid.
   const SurfaceMesh walls = alpha_shape(Alpha(grid), 0.8);
   EXPECT_EQ(walls.regular, 0U);
   EXPECT_GE(walls.triangles.size(), 2 * (3 * 5 * 16U));

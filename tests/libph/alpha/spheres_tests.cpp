@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Signs of exact geometric tests, which must not depend on rounding. The signs are tested directly,
-// because a wrong sign seldom changes a bar.
+// The signs computed by exact geometric tests, which must not depend on rounding. The signs are
+// tested directly, because a wrong sign seldom changes a bar.
 #include <gtest/gtest.h>
 
 #include "tests/libph/alpha/exact_spheres.hpp"
@@ -12,7 +12,8 @@ namespace {
 TEST(AlphaSpheres, SignsAndRadiiAreThoseOfIntegers) {
   for_each_seed(3000, [](Generator& random, bool weighted, std::int64_t) {
     const Index count = random.integer(2, 5), coordinates = random.integer(1, 3);
-    // Integers or decimals: right angles and points on one sphere occur exactly or up to rounding.
+    // Integers or decimals. Right angles and cospherical points are exact for integers, and exact
+    // up to rounding for decimals.
     const double step = random.coin() ? 0.1 : 1;
     const bool moves = random.coin();
     const auto number = [&](int low, int high) {
@@ -23,7 +24,8 @@ TEST(AlphaSpheres, SignsAndRadiiAreThoseOfIntegers) {
     };
     Points points(count, coordinates);
     for (double& x : points.coordinates()) x = number(-3, 3);
-    // Flattens some sets of points until twice the digits of a double are too few to find a sign.
+    // Flattens some sets of points so much that twice the precision of a double is not enough to
+    // find a sign.
     const Index flat = random.integer(0, 4);
     for (Index i = 0; flat < coordinates && i < count; ++i) points(i, flat) *= 1e-25;
     std::vector<double> weights;

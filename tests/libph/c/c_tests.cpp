@@ -20,7 +20,7 @@ ph_options defaults() {
   return options;
 }
 
-/// Compares all bars and their cells, using only the C interface for `found`.
+/// Compares all bars and their cells. Reads `found` only through the C interface.
 void expect_same(ph_barcode* found, const Barcode& expected) {
   ASSERT_EQ(ph_barcode_size(found), expected.size());
   const ph_bar* bars = ph_barcode_bars(found);
@@ -49,7 +49,7 @@ TEST(CInterface, GivesTheBarsOfPoints) {
     if (random.coin()) rips.threshold = options.threshold = random.value(ties);
     Options task{.field = field};
     if (options.max_dim >= 0) task.max_dim = options.max_dim;
-    // The numbers column by column, as in Fortran and Julia.
+    // Stores the numbers column by column, as in Fortran and Julia.
     std::vector<double> by_columns;
     for (Index k = 0; k < points.cols(); ++k)
       for (Index i = 0; i < points.rows(); ++i) by_columns.push_back(points(i, k));
@@ -92,7 +92,7 @@ TEST(CInterface, GivesTheBarsOfDistancesAndImages) {
                                extents.data(), nullptr, &options, &found),
               PH_OK)
         << ph_last_error();
-    // The numbers in reverse order, read with negative strides.
+    // The numbers are stored in reverse order and read with negative strides.
     std::vector<float> reversed(values.rbegin(), values.rend());
     std::vector<std::int64_t> strides(extents.size(), -1);
     for (std::size_t k = extents.size() - 1; k > 0; --k) strides[k - 1] = strides[k] * extents[k];
@@ -147,7 +147,7 @@ TEST(CInterface, TakesManyAtATime) {
     for (std::size_t i = 0; i < bars.size(); ++i)
       expect_same(bars[i], persistence(Cubical(Image{{4, 5}, images[i]})));
   }
-  // A failing call leaves nothing behind, and names the input that failed.
+  // A call that fails returns no barcodes, and names the input that failed.
   std::vector<ph_barcode*> none(clouds.size(), nullptr);
   images[42][3] = std::nanf("");
   const std::int64_t extents[] = {4, 5};
@@ -165,7 +165,7 @@ TEST(CInterface, TakesManyAtATime) {
   for (const ph_barcode* bars : none) EXPECT_EQ(bars, nullptr);
 }
 
-// Each pair of these points would be an edge, 2e10 in total.
+// Each pair of these points would be an edge: there would be 2e10 edges.
 TEST(CInterface, TakesManyEqualPoints) {
   constexpr std::int64_t rows = 200'000;
   const double point[] = {1, 2, 3};
@@ -217,7 +217,7 @@ TEST(CInterface, SaysWhatIsWrong) {
   expect(PH_USAGE, with([](auto& o) { o.distance = 6; }), "distance");
   expect(PH_USAGE, with([](auto& o) { o.size += 1; }), "size");
   expect(PH_USAGE, with([](auto& o) { o.size = 0; }), "size");
-  // A caller compiled with an older header, which has only the first members.
+  // The caller was compiled with an older header, in which the struct has only the first members.
   EXPECT_EQ(with([](auto& o) {
               o.distance = 6;
               o.size = offsetof(ph_options, distance);

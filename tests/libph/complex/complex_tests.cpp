@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Stored complexes: the inputs that they refuse and their messages, and the names of their cells.
+// Stored complexes: the inputs that they refuse, the error messages, and the names of their cells.
 #include <algorithm>
 #include <limits>
 
@@ -72,7 +72,7 @@ TEST(ExplicitComplexes, TheEmptyComplex) {
   EXPECT_TRUE(persistence(ExplicitComplex::from_boundary({})).empty());
 }
 
-// The oracle gives the cells beyond the threshold the value infinity: they never enter.
+// In the oracle, cells beyond the threshold have the value infinity, so they never enter.
 TEST(ExplicitComplexes, AThresholdLeavesTheSubcomplexBelowIt) {
   InputGenerator gen(RandomChoices(7));
   for (int round = 0; round < 60; ++round) {
@@ -103,7 +103,7 @@ TEST(ExplicitComplexes, AThresholdLeavesTheSubcomplexBelowIt) {
   expect_error(ErrorKind::usage, "threshold: found nan", [&] { none.set_threshold(kNan); });
 }
 
-// A triangle with its boundary, column by column.
+// A triangle with its boundary, stored column by column.
 BoundaryMatrix triangle() {
   BoundaryMatrix m;
   m.dims = {0, 0, 0, 1, 1, 1, 2};
@@ -135,7 +135,7 @@ TEST(ExplicitComplexes, WithoutIncidencesOnlyTwoWillDo) {
   expect_error(ErrorKind::usage, "incidence", [&] { persistence(complex, {.field = 3}); });
 }
 
-// The projective plane with one cell per dimension: the 2-cell goes round the loop twice.
+// The projective plane with one cell per dimension: the 2-cell is attached twice around the loop.
 TEST(ExplicitComplexes, IncidencesThatVanishOverSomeFields) {
   BoundaryMatrix m;
   m.dims = {0, 1, 2};
@@ -148,8 +148,8 @@ TEST(ExplicitComplexes, IncidencesThatVanishOverSomeFields) {
   EXPECT_EQ(betti_at_the_end(persistence(plane, {.field = 3}), 2), (std::vector<int>{1, 0, 0}));
 }
 
-// For a lens space L(p, q), the 2-cell goes round the loop p times. The homology differs only over
-// Z/p.
+// In a lens space L(p, q), the 2-cell is attached p times around the loop. The homology differs
+// from a sphere's only over Z/p.
 TEST(ExplicitComplexes, LensSpaces) {
   for (const int p : {2, 3, 5, 7}) {
     BoundaryMatrix m;
@@ -197,7 +197,7 @@ TEST(ExplicitComplexes, RefuseBrokenBoundaryMatrices) {
   });
 }
 
-// A dimension read from a file must not determine how much memory is allocated.
+// A dimension in a file must not determine how much memory is allocated.
 TEST(ExplicitComplexes, AbsurdDimensionsAreRefused) {
   BoundaryMatrix m;
   m.dims = {0, std::numeric_limits<int>::max()};

@@ -159,8 +159,8 @@ TEST(Barcodes, AreOrderedByDimensionBirthDeathAndBirthCell) {
   EXPECT_TRUE(barcode.bars(2).empty());
 }
 
-// The bars are added in any order, and reversed. Few and many bars with the same birth are sorted
-// by different methods.
+// Adds bars in random order or in descending order. Few and many bars with the same birth are
+// sorted by different methods.
 TEST(Barcodes, WithoutCellsAreOrderedByValues) {
   for (std::uint64_t seed = 0; seed < 30; ++seed) {
     Generator random(seed);

@@ -12,7 +12,7 @@
 namespace ph {
 namespace {
 
-/// An interface without the setting nan.
+/// An interface that lacks the setting `nan`.
 const Words kShouting{[](Setting setting, std::string_view value) {
   if (setting == Setting::nan) return std::string();
   return "SET " + std::string(name_of(setting)) + (value.empty() ? "" : " TO ") +
@@ -39,7 +39,7 @@ TEST(Message, LeavesClausesOfUnknownSettingsOut) {
             "found NaN; SET columns takes some");
   EXPECT_EQ(Message("found NaN; " + columns + ", " + nan + "; else").in_words(kShouting),
             "found NaN; else");
-  // A text about a setting that the interface lacks keeps the terms of C++.
+  // If the interface lacks a setting, a text about this setting keeps the terms of C++.
   EXPECT_EQ(Message(mark(Setting::nan, "drop") + ": nothing to do").in_words(kShouting),
             "nan drop: nothing to do");
   EXPECT_EQ(Message("a; " + nan + "; " + columns).without(Setting::columns).str(),

@@ -8,8 +8,8 @@
 namespace ph::test {
 namespace {
 
-// Numbers that a table might reserve for its own use, and numbers packed from the halves -2, -1, 0
-// and 1.
+// Numbers that a table might reserve for its own use, and numbers whose upper and lower 32 bits are
+// -2, -1, 0 or 1.
 std::vector<std::uint64_t> keys_at_the_ends() {
   std::vector<std::uint64_t> keys = {1ULL << 63, (1ULL << 63) - 1};
   for (const int high : {-2, -1, 0, 1})

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Tests the functions that use strtod in place of std::from_chars. Where the C++ library has
-// from_chars, it is the oracle.
+// Tests the functions that use strtod in place of std::from_chars. If the C++ library has
+// from_chars, the results are compared with it.
 #include "ph/detail/core/floating.hpp"
 
 #include <gtest/gtest.h>
@@ -89,8 +89,8 @@ TEST(Floating, LongNumbersAndWhatFollows) {
 }
 
 TEST(Floating, FloatsAreRoundedOnce) {
-  // The text is slightly more than 1 plus half a unit in the last place of a float. Rounded to a
-  // double, it is exactly 1 plus this half.
+  // The text is slightly more than 1 plus half a unit in the last place of a float. If it is
+  // rounded to a double first, it is exactly 1 plus this half unit.
   const std::string_view text = "1.00000005960464477539062500000000001";
   float value = 0;
   floating_by_strtod(text.data(), text.data() + text.size(), value);
@@ -114,8 +114,8 @@ constexpr bool kHasFromChars = requires(T& value) {
   std::from_chars("", "", value);
 };
 
-/// Compares with from_chars: both stop at the same place, report the same error and read the same
-/// bits.
+/// Compares with from_chars: both functions stop at the same place, report the same error and read
+/// the same bits.
 template <class T>
 void compare(const std::string& text) {
   if constexpr (kHasFromChars<T>) {
@@ -133,7 +133,7 @@ void compare(const std::string& text) {
 TEST(Floating, RandomTextsAsFromCharsReadsThem) {
   if (!kHasFromChars<double>) GTEST_SKIP() << "this C++ library has no std::from_chars of a double";
   for_each_seed(20000, [](Generator& random, bool, std::int64_t) {
-    // Joins pieces of numbers in any order: most of the results begin with a number.
+    // Concatenates random pieces of numbers. Most of the results begin with a number.
     constexpr std::string_view pieces[] = {
         "-",   "+",        ".", "e", "E-", "e+3",  "0",   "1", "7",   "12",  "99999999", "inf",
         "nan", "infinity", " ", ",", "x",  "e-32", "e30", "(", "ab)", "000", "5e-324"};

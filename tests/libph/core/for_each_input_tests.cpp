@@ -54,7 +54,7 @@ TEST(ForEachInput, SharesThreadsAndMemoryOut) {
       EXPECT_EQ(of_input.memory.limit(), 600U);
     });
   }
-  // Memory taken by one input is not available to the other inputs.
+  // One input may take all the memory that is left. The next input can take the same memory again.
   context.threads = 1;
   for_each_input(2, context, [&](std::size_t i, const RunContext& of_input) {
     const MemoryClaim most(of_input.memory, 600);
@@ -83,7 +83,7 @@ TEST(ForEachInput, NamesTheFirstThatFails) {
       std::bad_alloc);
 }
 
-/// Waits until the context is stopped; if it never is, the time limit ends the test.
+/// Waits until the context is stopped. If it is never stopped, the time limit ends the wait.
 void wait_for_a_stop(const RunContext& context) {
   const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(2);
   while (std::chrono::steady_clock::now() < end) context.poll();

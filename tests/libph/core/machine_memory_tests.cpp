@@ -12,7 +12,7 @@
 namespace ph {
 namespace {
 
-// A tree of control groups in the form that the kernel shows.
+// Creates a tree of control groups in the form in which the kernel shows it.
 class ControlGroups : public testing::Test {
  protected:
   void SetUp() override {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Memory is counted and refused, stops are obeyed, and progress is reported.
+// Memory counts and limits, stop requests, and progress reports.
 #include "ph/run_context.hpp"
 
 #include <algorithm>
@@ -41,8 +41,8 @@ TEST(MemoryBudgets, CountAndRefuse) {
   EXPECT_EQ(budget.peak(), 1000U);
 }
 
-// Under any limit, a computation gives the right answer, or frees everything and reports that
-// memory is short.
+// Under any limit, a computation either gives the right answer, or frees everything and reports
+// that memory is short.
 TEST(MemoryBudgets, HoldForEveryEngine) {
   Generator random(3);
   const Points points = random.points(24, 3, false);
@@ -100,7 +100,7 @@ std::size_t entering(const Image& image) {
 }
 
 // Tables that a filtration builds in its first run belong to the filtration and count towards its
-// own budget. The budget of the run limits them nevertheless.
+// own budget. The budget of the run also limits them.
 TEST(MemoryBudgets, OfARunBoundsWhatACubicalFiltrationMakesLate) {
   const Image image = Generator(3).image({9, 8, 7}, false);
   for (const Engine engine : kListCells) {
@@ -235,7 +235,7 @@ TEST(MemoryBudgets, CountWhatComesFromElsewhere) {
 
 using Clock = std::chrono::steady_clock;
 
-// The points of a job that takes every engine many seconds, if the engine goes beyond H0.
+// Points that keep every engine busy for many seconds if it computes more than H0.
 Points long_job(Engine engine) {
   return Generator(1).points(engine == Engine::cohomology ? 400 : 90, 6, false);
 }
