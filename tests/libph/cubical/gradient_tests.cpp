@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Images whose cells are paired voxel by voxel: compares them with the oracle cell by cell. Covers
-// all types of voxels, both constructions, holes, periodic axes, and the duality of the two
+// Images whose cells are paired voxel by voxel: compares the pairs with the oracle cell by cell.
+// Covers all types of voxels, both constructions, holes, periodic axes, and the duality of the two
 // constructions.
 #include <gtest/gtest.h>
 
@@ -78,8 +78,8 @@ TEST(Gradient, AgreeWithTheOracleCellByCell) {
   EXPECT_TRUE(is_enough(longer, std::size_t{3000})) << longer;
 }
 
-// Compares larger images with the reduction of the boundary matrix. Loops have long boundaries, and
-// columns are added to each other.
+// Compares larger images with the reduction of the boundary matrix. In these images, loops have
+// long boundaries, and columns are added to each other.
 TEST(Gradient, AgreeOnLargerVolumes) {
   for_each_seed(24, [&](Generator& random) {
     const std::vector<Index> extents{random.integer(10, 16), random.integer(10, 16),
@@ -93,7 +93,7 @@ TEST(Gradient, AgreeOnLargerVolumes) {
   });
 }
 
-// With few critical cells, gradient paths are followed on demand, not all at once.
+// If there are few critical cells, gradient paths are followed on demand instead of all at once.
 TEST(Gradient, AgreeOnSmoothImages) {
   for_each_seed(40, [&](Generator& random) {
     const bool flat = random.coin();
@@ -123,9 +123,9 @@ TEST(Gradient, AgreeOnSmoothImages) {
   });
 }
 
-// The V-construction of f is dual to the T-construction of -f with a border that enters first:
-// dimension d-1-k corresponds to k, and the ends of bars are swapped and negated. The classes that
-// never die are the exception.
+// The V-construction of f is dual to the T-construction of -f with an added border that enters
+// first. Dimension d-1-k corresponds to k, and the two ends of each bar are swapped and negated.
+// This does not hold for classes that never die.
 TEST(Gradient, ConstructionsAreDual) {
   for_each_seed(300, [&](Generator& random) {
     const int axes = random.integer(1, 4);
@@ -167,7 +167,8 @@ TEST(Gradient, ConstructionsAreDual) {
     };
     std::ranges::sort(direct, before);
     std::ranges::sort(dual, before);
-    // The border dies at the highest value, which adds one bar in the highest dimension.
+    // The highest value fills the border, which adds one bar in the highest dimension. This bar was
+    // left out above.
     EXPECT_EQ(direct, dual);
   });
 }
@@ -219,7 +220,7 @@ TEST(Gradient, SolidAndHollowTori) {
   }
 }
 
-// A trefoil knot is a circle, however it lies in space. Its complement has one loop and one void.
+// Any trefoil knot is a circle, and its complement has one loop and one void.
 TEST(Gradient, AKnotAndWhatIsAroundIt) {
   constexpr Index width = 41, depth = 21;
   constexpr int steps = 400;
@@ -258,7 +259,7 @@ TEST(Gradient, AreTakenWhereTheyCan) {
   const Image flat{{2, 3}, {1, 2, 3, 4, 5, 6}};
   EXPECT_EQ(plan(Cubical(flat), {}).options.engine, Engine::gradient);
   EXPECT_EQ(plan(Cubical(flat), {.max_dim = 0}).options.engine, Engine::gradient);
-  // Axes with one voxel do not count.
+  // Axes of one voxel are not counted.
   const Image thin{{2, 1, 2, 1, 2}, std::vector<double>(8, 0.0)};
   EXPECT_EQ(plan(Cubical(thin), {}).options.engine, Engine::gradient);
   const Options cycles{.representatives = Representatives::cycles};
@@ -323,8 +324,8 @@ TEST(Gradient, HolesTakeNoMemory) {
     const Cubical cubical(image, {.construction = construction, .threshold = 25}, context);
     const std::size_t before = context.memory.used();
     persistence(cubical, {.max_dim = 0, .cells = false}, context);
-    // Each voxel takes memory for its star and for its node in the graph, and each critical cell
-    // takes memory as well.
+    // Memory is needed for the star of each voxel, for the node of each voxel in the graph, and for
+    // each critical cell.
     EXPECT_LE(context.memory.peak() - before, std::size_t{18'000'000});
   }
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Loops of volumes in parts, with any order of work and of messages: compares them with the same
-// volumes as a whole. Covers any number of parts, both constructions, holes, infinities, ties and
-// periodic axes.
+// Loops of volumes that are computed in parts, in any order of work and of messages: compares them
+// with the loops of the whole volumes. Covers any number of parts, both constructions, holes,
+// infinities, ties and periodic axes.
 #include "ph/parts/image_loops.hpp"
 
 #include <gtest/gtest.h>
@@ -77,7 +77,7 @@ Outcome run_in_parts(Generator& random, const Case& c, int count, Schedule sched
   for (int i = 0; i < count; ++i) {
     ImagePart part(c.image, i, count, c.options);
     loops.emplace_back(part, c.field);
-    // Some parts are written to bytes and read back, as between machines.
+    // Some parts are written to bytes and read back, as if they were sent between machines.
     if (random.coin()) part = ImagePart::of_bytes(part.bytes());
     if (whole)
       whole->join(std::move(part));
@@ -128,8 +128,7 @@ Outcome run_in_parts(Generator& random, const Case& c, int count, Schedule sched
       post(loops[i]);
     }
     if (on_their_way.empty()) continue;
-    // The last message is delivered first. No message is delivered while a part can work without
-    // it.
+    // The last message is delivered first, and only when no part can work without it.
     if (schedule == Schedule::last_message_first) {
       if (std::ranges::all_of(loops, &ImageLoops::is_idle)) deliver(on_their_way.size() - 1);
     } else if (random.coin()) {
@@ -184,11 +183,12 @@ TEST(ImageLoops, AgreeWithTheOracleCellByCell) {
   EXPECT_TRUE(is_enough(runs, std::size_t{50000})) << runs;
   EXPECT_TRUE(is_enough(loops, std::size_t{3000})) << loops;
   EXPECT_TRUE(is_enough(sent, std::size_t{10000})) << sent;
-  // These numbers help in longer searches, which are started by hand.
+  // These numbers help in longer searches that are started by hand.
   std::cout << runs << " runs, " << loops << " loops, " << sent << " columns sent\n";
 }
 
-/// The loops of all parts of an image, which have all begun, and their first messages.
+/// The loops of all parts of an image after each part has begun, and the first messages of the
+/// parts.
 struct Begun {
   std::vector<ImageLoops> loops;
   std::vector<ImageLoops::Message> messages;
@@ -231,8 +231,8 @@ std::vector<Pair> finished(Begun all) {
   return pairs;
 }
 
-// There are enough columns for several threads, and for rounds in which threads take pivots from
-// each other.
+// There are enough columns for several threads, and for rounds in which threads take each other's
+// pivots.
 TEST(ImageLoops, ThreadsDoNotMatter) {
   for (const Construction construction : {Construction::vertices, Construction::cells}) {
     Generator random(7);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Images in parts that are computed independently and joined in random groups: compares them with
-// the same images as a whole. Covers any number of parts, both constructions, holes, infinities,
-// ties and periodic axes.
+// Images in parts that are computed independently and joined in random groups: compares the results
+// with the results of the whole images. Covers any number of parts, both constructions, holes,
+// infinities, ties and periodic axes.
 #include "ph/parts/image_part.hpp"
 
 #include <gtest/gtest.h>
@@ -109,7 +109,7 @@ TEST(ImagePart, RefusesLayersThatAreNone) {
   EXPECT_TRUE(with_loops.is_of(image, 1, 3, {.loops = true}));
   EXPECT_FALSE(with_loops.is_of(image, 1, 3, {}));
   EXPECT_FALSE(with_loops.is_of(image, 1, 3, {.max_dim = 0, .loops = true}));
-  // Parts with other first layers have other options, and do not fit together.
+  // Parts with different first layers have different options, so they do not fit together.
   const ImagePartOptions equal{.max_dim = 0}, other{.max_dim = 0, .first_layers = {0, 1, 6}};
   ImagePart first(image, 0, 3, other);
   EXPECT_TRUE(first.is_of(image, 0, 3, other));
@@ -119,8 +119,8 @@ TEST(ImagePart, RefusesLayersThatAreNone) {
   EXPECT_EQ(first.last(), 1);
 }
 
-// The result does not depend on how parts are grouped. Images with holes are left out, because
-// either of two holes that have always existed may be closed first.
+// The bytes of the result do not depend on how parts are grouped. Images with holes are left out.
+// If two holes have existed from the start, either of them may be closed first.
 TEST(ImagePart, WhatIsKeptDoesNotDependOnGroups) {
   int compared = 0;
   for_each_seed(1000, [&](Generator& random) {
@@ -132,7 +132,7 @@ TEST(ImagePart, WhatIsKeptDoesNotDependOnGroups) {
     };
     if (is_refused(c) || std::ranges::any_of(c.image.values, is_hole)) return;
     ++compared;
-    // Joins the first three of four parts in both groupings.
+    // Joins the first three of four parts, once from the left and once from the right.
     if (c.layers < 4) return;
     auto left = parts_of(c.image, 4, c.options), right = parts_of(c.image, 4, c.options);
     left[0].join(std::move(left[1]));
@@ -199,8 +199,8 @@ TEST(ImagePart, RefusesDamagedBytes) {
   const Image image = random.image({6, 7}, false);
   const std::vector<std::byte> bytes = ImagePart(image, 1, 3).bytes();
   std::size_t refused = 0;
-  // If damaged bytes are accepted as a part, joining the part must be safe: no index is out of
-  // range.
+  // Damaged bytes may be accepted as a part. Even then, joining this part must be safe: no index
+  // may be out of range.
   const auto is_refused = [&](std::span<const std::byte> damaged) {
     return fails_with(ErrorKind::bad_data, [&] {
       ImagePart whole(image, 0, 3);
@@ -220,8 +220,8 @@ TEST(ImagePart, RefusesDamagedBytes) {
       damaged[i] ^= flipped;
       ASSERT_TRUE(is_refused(damaged)) << i;
     }
-  // The checksum is corrected. A changed value may therefore be accepted, but a changed list may
-  // not.
+  // Damages the content and corrects the checksum. A changed value may be accepted, but a changed
+  // list must be refused.
   for (std::size_t i = 0; i < content.size(); ++i)
     for (const std::byte flipped : {std::byte{1}, std::byte{4}, std::byte{0x84}}) {
       std::vector<std::byte> damaged(content.begin(), content.end());
@@ -264,7 +264,7 @@ TEST(ImagePart, RefusesDamagedLayers) {
     }
 }
 
-// The check value for the digits 1 to 9 in Cook's catalogue of CRCs.
+// Cook's catalogue of CRCs gives this check value for the digits 1 to 9.
 TEST(Crc32, HasTheKnownValue) {
   std::vector<std::byte> digits;
   for (const char digit : std::string_view("123456789"))

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Images of more than three axes, in parts that are computed independently and joined in random
-// groups: compares components and the highest dimension but one with the result of one process.
+// Images with more than three axes, in parts that are computed independently and joined in random
+// groups. Compares the components, and the bars of the second-highest dimension, with the result of
+// one process.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -49,7 +50,7 @@ TEST(ManyAxesPart, AgreesWithTheOracleCellByCell) {
   EXPECT_TRUE(is_enough(of_many, std::size_t{1500})) << of_many;
 }
 
-// However threads share the voxels, the bytes of a part are the same.
+// The bytes of a part are the same, however the voxels are divided among threads.
 TEST(ManyAxesPart, AgreesOnLargerImages) {
   std::size_t bars = 0;
   for (std::uint64_t seed = 0; seed < 16; ++seed) {
@@ -65,7 +66,7 @@ TEST(ManyAxesPart, AgreesOnLargerImages) {
     }
     const auto expected = pairs_of_one_process(c, Engine::gradient);
     bars += expected.size();
-    RunContext threads;  // each thread takes some thousand voxels at a time
+    RunContext threads;  // each thread takes a few thousand voxels at a time
     threads.threads = 3;
     for (const int count : {1, 4, 9}) {
       auto parts = parts_of(c.image, count, c.options, threads);
@@ -93,8 +94,8 @@ TEST(ManyAxesPart, AgreesUpToEightAxes) {
   EXPECT_TRUE(is_enough(bars, std::size_t{200})) << bars;
 }
 
-// The dimensions between the first and the last need all layers. Parts refuse to compute them
-// instead of returning less than requested.
+// For the dimensions between the first and the last, all layers are needed at once. If these
+// dimensions are requested, parts report an error instead of returning fewer bars.
 TEST(ManyAxesPart, SaysWhatCanBeHad) {
   const auto refused = [](std::vector<Index> extents, ImagePartOptions options, const char* why) {
     Generator random(1);
@@ -129,8 +130,8 @@ TEST(ManyAxesPart, RefusesDamagedBytes) {
       for (const std::byte flipped : {std::byte{1}, std::byte{4}, std::byte{0x84}}) {
         std::vector<std::byte> damaged(content.begin(), content.end());
         damaged[i] ^= flipped;
-        // If damaged bytes are accepted as a part, joining the part must be safe: no index is out
-        // of range.
+        // Damaged bytes may be accepted as a part. Even then, joining this part must be safe: no
+        // index may be out of range.
         try {
           ImagePart whole(image, 0, 3, options);
           whole.join(ImagePart::of_bytes(sealed_part("image", damaged)));

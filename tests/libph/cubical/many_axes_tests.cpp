@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Images of more than three axes, paired within the star of each vertex: compares them with the
-// oracle cell by cell, and with known spaces.
+// Images with more than three axes, whose cells are paired within the star of each vertex. Compares
+// the pairs with the oracle cell by cell, and the homology with known spaces.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -27,7 +27,8 @@ std::vector<Index> random_extents(Generator& random, int axes, int least, int mo
   return extents;
 }
 
-/// Images with a few values, 256 values, or all values different. Some voxels never enter.
+/// Images with a few values, with 256 values, or with only different values. Some voxels never
+/// enter.
 Image any_image(Generator& random, const std::vector<Index>& extents) {
   Image image = random.image(extents, random.coin());
   if (random.coin()) return image;
@@ -63,8 +64,8 @@ TEST(ManyAxes, AgreeWithTheOracleCellByCell) {
   EXPECT_TRUE(is_enough(found_in_all, std::size_t{3000})) << found_in_all;
 }
 
-// Compares larger images with the boundary matrix. Columns are added, and threads take pivots from
-// each other.
+// Compares larger images with the reduction of the boundary matrix. Columns are added to each
+// other, and threads take each other's pivots.
 TEST(ManyAxes, AgreeOnLargerImages) {
   for_each_seed(12, [&](Generator& random) {
     const Image image = any_image(random, random_extents(random, 4, 5, 8));
@@ -117,7 +118,7 @@ TEST(ManyAxes, AreTakenWhereTheyCan) {
   grid.periodic.assign(8, false);
   grid.extents.assign(8, 8);  // 15^8 cells
   EXPECT_TRUE(cubical::can_pair_voxels(grid, 8));
-  grid.voxels_are_vertices = false;  // 17^8
+  grid.voxels_are_vertices = false;  // 17^8 cells
   EXPECT_FALSE(cubical::can_pair_voxels(grid, 8));
   EXPECT_TRUE(cubical::can_pair_voxels(grid, 0));  // only voxels and edges
 }
@@ -130,8 +131,8 @@ TEST(ManyAxes, CellsOrNotTheBarsAreTheSame) {
             std::vector<Bar>(without.begin(), without.end()));
 }
 
-// Under any limit, the computation gives the right answer, or frees everything and reports that
-// memory is short. A stop is obeyed at every stage.
+// Under any limit, the computation either gives the right answer, or frees everything and reports
+// that memory is short. A request to stop is obeyed at every stage.
 TEST(ManyAxes, BudgetsAndStops) {
   const Image image = Generator(5).image({8, 9, 7, 8}, false);
   const auto run = [&](const RunContext& context) {

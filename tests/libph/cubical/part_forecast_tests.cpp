@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Forecasts for images in parts: checks the first layers that they propose, for any image, and
-// compares the predicted numbers of bytes with the actual numbers.
+// Forecasts for images in parts. Checks the first layers that a forecast proposes for any image,
+// and compares the predicted numbers of bytes with the actual numbers.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -52,7 +52,7 @@ TEST(PartForecast, LayersAreAlwaysValid) {
   for_each_seed(1000, [&](Generator& random) {
     ImageCase c = random_image_case(random);
     c.options.loops = true;
-    if (is_refused(c)) return;  // images with more axes
+    if (is_refused(c)) return;  // images with more than three axes may be refused
     ASSERT_NO_FATAL_FAILURE(expect_valid(c.image, c.options, c.layers));
   });
 }
@@ -116,7 +116,7 @@ TEST(PartForecast, LayersWithMuchInThemAreShared) {
   }
 }
 
-// Layers with few rows and layers with long rows, for which the forecast examines only some voxels.
+// Layers with few rows and layers with long rows. The forecast examines only some voxels of them.
 TEST(PartForecast, LongRowsAreSeen) {
   Generator random(3);
   for (const std::vector<Index>& extents :
@@ -131,13 +131,14 @@ TEST(PartForecast, LongRowsAreSeen) {
   }
 }
 
-/// The memory and the bytes that parts took.
+/// The memory and the bytes that the parts needed.
 struct Taken {
-  /// Memory and file of the largest part; messages of all parts together.
+  /// The memory and the file size of the largest part, and the bytes of all messages.
   double memory = 0, file = 0, sent = 0;
 };
 
-/// Measures the parts on ranks. The image and the parts of each rank have separate memory budgets.
+/// Runs each part on a rank and measures what it needs. The image does not count towards the memory
+/// budget of any rank.
 Taken taken_on_ranks(const Image& image, const ImagePartOptions& options, int parts) {
   Taken taken;
   std::mutex mutex;
@@ -179,7 +180,7 @@ TEST(PartForecast, NoiseTakesWhatIsForeseen) {
         const Taken taken = taken_on_ranks(image, options, parts);
         EXPECT_GE(taken.file, forecast.file.low);
         EXPECT_LE(taken.file, forecast.file.high);
-        // The forecast counts the voxels of a mapped file. The measurement does not count the
+        // The forecast includes the voxels of a mapped file. The measurement does not include the
         // voxels of the image.
         EXPECT_GE(taken.memory + 8.0 * 64 * 64 * (64 / parts + 1), forecast.memory.low);
         EXPECT_LE(taken.memory, forecast.memory.high);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Images and clouds on several ranks, which are threads here and exchange messages: compares them
-// with one process. Messages are also lost, duplicated, reordered or changed.
+// Images and clouds on several ranks: compares the results with one process. The ranks are threads
+// that exchange messages. In some tests, messages are lost, duplicated, reordered or changed.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -54,7 +54,7 @@ TEST(Ranks, AgreeWithTheOracle) {
       c.options.min_dim = 0;
       c.options.max_dim = std::nullopt;
     }
-    if (is_refused(c)) return;  // not possible for images with more axes
+    if (is_refused(c)) return;  // images with more than three axes may be refused
     const std::int64_t field = random.coin() ? 2 : 3;
     ASSERT_EQ(ImagePart::most_parts(c.image, c.options.cubical), c.layers);
     const Options oracle{.max_dim = c.options.max_dim.value_or(c.image.dim()),
@@ -104,7 +104,7 @@ TEST_P(Mishaps, AreSeen) {
     ranks.plan(GetParam(), static_cast<int>(seed) % 8);
     fails_with(ErrorKind::io, [&] {
       const Barcode bars = bars_of_ranks(c, ranks);
-      // A message that arrives twice is read once; the second copy stays unread.
+      // If a message arrives twice, only the first copy is read.
       EXPECT_TRUE(GetParam() == Mishap::doubled || !ranks.has_happened());
       EXPECT_EQ(pairs_of(bars), pairs_of(ImagePart(c.image, 0, 1).barcode()));
     });
@@ -116,7 +116,7 @@ INSTANTIATE_TEST_SUITE_P(All, Mishaps,
                          testing::Values(Mishap::lost, Mishap::doubled, Mishap::swapped,
                                          Mishap::changed));
 
-/// Sends three messages from rank 1 to rank 0, where three are read.
+/// Sends three messages from rank 1 to rank 0, which reads three messages.
 void three_messages(ThreadRanks& ranks) {
   ranks.run([](Transport& transport) {
     Post post(transport);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Images that are read one slab at a time: compares them with the same images as a whole. Covers
-// slabs of any height, all types of voxels, both constructions, holes and periodic axes.
+// Images that are read one slab at a time: compares the results with the results of the whole
+// images. Covers slabs of any height, all types of voxels, both constructions, holes and periodic
+// axes.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -128,7 +129,7 @@ std::vector<FarBar> far_bars(const Image& image, const CubicalOptions& options) 
   return found;
 }
 
-// Long rows are processed in blocks of some thousand voxels.
+// Long rows are processed in blocks of a few thousand voxels.
 TEST(Slabs, HaveLongRows) {
   Generator random(8);
   for (const std::vector<Index>& extents :
@@ -171,8 +172,8 @@ TEST(Slabs, RefuseLoopsOfTooManyVoxels) {
       [&] { persistence(cubical); });
 }
 
-// Noise has more critical cells than voxels. Its loops therefore do not fit into memory, but
-// everything else does.
+// An image of noise has more critical cells than voxels. Memory is large enough for everything
+// except its loops.
 TEST(Slabs, SayWhenLoopsDoNotFit) {
   Generator random(4);
   const Image image = random_image<std::uint16_t>(random, {150, 60, 60}, 60000);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Representatives of the bars of images: checks cycles by their definition, and sets of voxels by
+// Representatives of the bars of images: checks cycles by the definition, and sets of voxels by
 // flood fill.
 #include <array>
 #include <set>
@@ -24,8 +24,8 @@ TEST(VoxelRepresentatives, SetsByFloodFill) {
   });
 }
 
-// Tests all shapes with one to three voxels along one to three axes, with any choice of periodic
-// axes.
+// Tests all extents of one to three voxels along one to three axes. Any of the axes may be
+// periodic.
 TEST(VoxelRepresentatives, OfAllSmallShapes) {
   for_each_seed(4, [](Generator& random, bool ties, std::int64_t field) {
     for (std::size_t axes = 1; axes <= 3; ++axes) {
@@ -51,7 +51,8 @@ TEST(VoxelRepresentatives, OfAllSmallShapes) {
   });
 }
 
-// A periodic axis of one voxel is a circle: cycles go around it, but no set of voxels surrounds it.
+// A periodic axis of one voxel is a circle. A cycle can go around it, but no set of voxels
+// surrounds it.
 TEST(VoxelRepresentatives, ACircleOfOneVoxelIsGoneAroundByCycles) {
   const Image pair{{1, 2}, {1, 2}};
   const Barcode bars = persistence(Cubical(pair, {.periodic = {true}}),
@@ -61,7 +62,7 @@ TEST(VoxelRepresentatives, ACircleOfOneVoxelIsGoneAroundByCycles) {
   EXPECT_EQ(bars[1], (Bar{1, 1, kInfinity}));
   EXPECT_TRUE(bars.voxels(1).empty());
   EXPECT_GT(bars.representative(1).size(), 0U);
-  // A ring that fills its whole row surrounds no voxel.
+  // A ring that consists of all voxels of its row surrounds no voxel.
   const Image ring{{5, 1}, {1, 2, 3, 4, 5}};
   const Barcode around = persistence(
       Cubical(ring, {.construction = CubicalOptions::Construction::cells, .periodic = {true}}),
@@ -71,8 +72,9 @@ TEST(VoxelRepresentatives, ACircleOfOneVoxelIsGoneAroundByCycles) {
   EXPECT_GT(around.representative(1).size(), 0U);
 }
 
-// With columns that are added to each other and long paths through the forest, the representatives
-// must be the same for any number of threads, have no boundary, and be born at the right value.
+// Columns are added to each other, and paths through the forest are long. Even then, the
+// representatives must be the same for any number of threads, have no boundary, and be born at the
+// right value.
 TEST(VoxelRepresentatives, CyclesOfLargerVolumes) {
   for_each_seed(8, [](Generator& random, bool ties, std::int64_t field) {
     const std::vector<Index> extents{12, 9, 11};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Checks, pair by pair, that prices prove a matching to be optimal. Also tests auctions that are
-// abandoned.
+// Checks for each pair of points that the prices prove a matching to be optimal. Also tests
+// auctions that are abandoned.
 #include "libph/src/diagram/wasserstein/assignment.hpp"
 
 #include <gtest/gtest.h>
@@ -33,8 +33,9 @@ long double power(long double distance, int order) {
   return order == 1 ? distance : distance * distance;
 }
 
-/// Checks optimality by the duality of linear programs: the prices are feasible, and their sum and
-/// the cost of the pairs both equal the stated cost. The sums have more digits than the prices.
+/// Checks optimality by the duality of linear programs: the prices are feasible, and the sum of the
+/// prices and the cost of the pairs both equal the stated cost. The sums are computed in higher
+/// precision than the prices.
 void expect_proof(const Assignment& found, int order, const std::string& where) {
   const auto &a = found.side(0), &b = found.side(1);
   const auto alone = [&](const Point& p) {
@@ -89,8 +90,8 @@ TEST(Assignment, PricesProveTheMatching) {
     Assignment found(a, b, cost, default_context());
     ASSERT_TRUE(Auction(found, default_context()).run(kToTheEnd, 1'000'000));
     expect_proof(found, order, std::to_string(round));
-    // Ties make auctions long and shortest paths many. The points are scaled such that costs are
-    // about 1.
+    // Because of ties, auctions are long, and many shortest paths are needed. The points are scaled
+    // such that costs are about 1.
     auto c = random_points(random, 300, 8), d = random_points(random, 200 + random() % 200, 8);
     for (auto* points : {&c, &d})
       for (Point& p : *points) p = {p[0] / 8, p[1] / 8};
@@ -100,8 +101,8 @@ TEST(Assignment, PricesProveTheMatching) {
   }
 }
 
-// An auction always ends: after a number of bids, it is abandoned, and shortest paths finish the
-// assignment.
+// Every computation ends: after a certain number of bids, the auction is abandoned, and shortest
+// paths complete the assignment.
 TEST(Assignment, ShortestPathsFollowAnAuctionThatIsGivenUp) {
   std::mt19937 random(2);
   for (int round = 0; round < 30; ++round) {

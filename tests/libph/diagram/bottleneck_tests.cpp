@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Compares the bottleneck distance with the best of all matchings for small diagrams, and with a
-// slow algorithm for larger ones.
+// Compares the bottleneck distance between small diagrams with the best of all matchings, and
+// between larger diagrams with the result of a slow algorithm.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -49,8 +49,8 @@ double by_all_matchings(const Bars& a, const Bars& b) {
   return best_of_all(a, b, used, 0);
 }
 
-/// The bottleneck distance by a simple method: bars are copied to the diagonal, all costs are
-/// listed, and matchings grow pair by pair.
+/// The bottleneck distance by a simple method: for each bar, the other diagram gets a copy of the
+/// diagonal. All costs are listed, and a matching grows pair by pair.
 double by_growing_matchings(const Bars& a, const Bars& b) {
   const std::size_t n = a.size() + b.size();
   std::vector<double> costs(n * n, 0.0), values{0};
@@ -100,7 +100,7 @@ TEST(Bottleneck, IsThatOfGrowingMatchings) {
   for (int round = 0; round < 40; ++round) {
     const int steps = round % 2 == 0 ? 0 : 20;
     const Bars a = random_bars(random, 10 + random() % 51, steps);
-    Bars b = a;  // in half of the rounds, similar to `a`: then most bars have a partner
+    Bars b = a;  // in half of the rounds, most bars of `b` are near a bar of `a`
     if (round % 4 < 2)
       b = random_bars(random, 10 + random() % 51, steps);
     else
@@ -112,7 +112,7 @@ TEST(Bottleneck, IsThatOfGrowingMatchings) {
   }
 }
 
-// The bars of both diagrams alternate in a row, and the unmatched bars are at its ends. The paths
+// The bars of the two diagrams alternate in a row, with the unmatched bars at its ends. The paths
 // between unmatched bars are therefore long.
 TEST(Bottleneck, OfBarsInARow) {
   std::mt19937 random(6);
@@ -146,7 +146,7 @@ TEST(Bottleneck, BoundsAreAsNearAsAsked) {
     const DistanceBounds all = bottleneck_bounds(a, b, {});
     ASSERT_EQ(all.value, distance) << round;
     ASSERT_EQ(all.lower, distance) << round;
-    // A bound just below the distance, far below it, and equal to it.
+    // The bound is just below the distance, far below it, or equal to it.
     for (const double at_most : {std::nextafter(distance, 0.0), distance / 3, distance}) {
       const DistanceBounds most = bottleneck_bounds(a, b, {.at_most = at_most});
       ASSERT_LE(most.lower, distance) << round;
@@ -160,8 +160,8 @@ TEST(Bottleneck, BoundsAreAsNearAsAsked) {
       }
     }
   }
-  EXPECT_GT(narrower, 50);  // otherwise, the bounds never differed
-  EXPECT_GT(beyond, 50);    // these computations stopped at the bound
+  EXPECT_GT(narrower, 50);  // in these rounds, the two bounds differed
+  EXPECT_GT(beyond, 50);    // in these rounds, the computation stopped at the bound
 }
 
 TEST(Bottleneck, RefusesLimitsOutOfRange) {
@@ -184,8 +184,8 @@ TEST(Bottleneck, IsAMetric) {
   }
 }
 
-// Copies, bars on the diagonal, and clusters far from each other have made other programs loop
-// forever.
+// With copies of bars, bars on the diagonal, or clusters far from each other, other programs have
+// looped forever.
 TEST(Bottleneck, OfManyCopies) {
   const Bars million(1'000'000, {1, 0.25, 0.75}), half(500'000, {1, 0.25, 0.75});
   EXPECT_EQ(bottleneck_distance(half, half), 0);
@@ -223,8 +223,8 @@ TEST(Bottleneck, BarsWithoutEndAreForEachOther) {
   EXPECT_EQ(bottleneck_distance(Bars{{0, kInfinity, kInfinity}}, {}), 0);
 }
 
-/// Checks that a pairing proves the distance: each cost is at most the distance, exactly and by the
-/// definition.
+/// Checks that a pairing proves the distance: by the definition, the cost of each pair is at most
+/// the distance, without a tolerance for rounding.
 void expect_certificate(const Bars& a, const Bars& b, const BottleneckMatching& matching,
                         const std::string& where) {
   std::vector<bool> in_a(a.size()), in_b(b.size());

@@ -27,8 +27,8 @@ Spans spans_of(const std::vector<Bars>& diagrams) { return {diagrams.begin(), di
 
 // ---- sliced Wasserstein
 
-/// The distance between two sets of numbers. It is the integral over x of the absolute difference
-/// between the numbers of elements below x in each set.
+/// The 1-Wasserstein distance between two sets of numbers: the integral over x of the absolute
+/// difference between the two counts of numbers below x.
 double between(std::vector<std::pair<double, int>> numbers) {
   std::ranges::sort(numbers);
   double sum = 0;
@@ -71,14 +71,15 @@ TEST(SlicedWasserstein, IsTheMeanOverDirections) {
   }
 }
 
-// The mean of |cos| is 2/π. The distance of a bar from the diagonal is √2 times half of its length.
+// The mean of |cos| is 2/π. The distance from a bar to the diagonal is √2 times half the length of
+// the bar.
 TEST(SlicedWasserstein, OfOneBar) {
   const double found = sliced_wasserstein_distance(Bars{{0, 1, 5}}, {}, 2000);
   EXPECT_NEAR(found, 2 * std::numbers::sqrt2 * 2 / std::numbers::pi, 1e-5);
   EXPECT_EQ(sliced_wasserstein_distance({}, {}), 0);
   EXPECT_EQ(sliced_wasserstein_distance(Bars{{0, 2, 2}}, {}), 0);
-  // With one direction, only births are compared: the last direction of the half circle equals the
-  // first and is left out.
+  // With one direction, only births are compared. The directions divide a half circle, whose second
+  // end is left out because it is opposite to the first.
   EXPECT_DOUBLE_EQ(sliced_wasserstein_distance(Bars{{0, 1, 5}}, {}, 1), 2);
 }
 
@@ -149,7 +150,7 @@ TEST(DiagramDistances, OfSomeFromOthers) {
   std::vector<Bars> some, others;
   for (int i = 0; i < 3; ++i) some.push_back(random_bars(random, 5 + random() % 100));
   for (int i = 0; i < 5; ++i) others.push_back(random_bars(random, 5 + random() % 100));
-  // The function is not symmetric, and therefore its values show the order of its arguments.
+  // The function is not symmetric, so its values show in which order it gets its arguments.
   const auto difference = [](std::span<const Bar> a, std::span<const Bar> b, const RunContext&) {
     return static_cast<double>(1000 + a.size()) - static_cast<double>(b.size());
   };
@@ -203,8 +204,8 @@ TEST(BarycentreOfDiagrams, ThatAreKnown) {
   EXPECT_EQ(middle.bars, (Bars{{0, 1.5, 6.5}, {0, 12, kInfinity}}));
   EXPECT_DOUBLE_EQ(middle.root_mean_square, std::sqrt(0.25 + 2.25 + 4));
   EXPECT_EQ(middle.rounds, 1);
-  // One diagram has a bar, and the other three have the diagonal in its place: a quarter of its
-  // length remains.
+  // One diagram has a bar, and the other three diagrams are empty. The bar of the barycentre has a
+  // quarter of the length.
   const std::vector<Bars> alone = {{}, {{0, 0, 8}}, {}, {}};
   const Barycentre quarter = barycentre(spans_of(alone));
   EXPECT_EQ(quarter.bars, (Bars{{0, 3, 5}}));
@@ -236,7 +237,7 @@ TEST(BarycentreOfDiagrams, IsALocalMinimum) {
       least = std::min(least, root_mean_square(diagram, diagrams));
     ASSERT_LE(medoid.root_mean_square, 1.01 * least) << round;
     ASSERT_NEAR(root_mean_square(found.bars, diagrams), found.root_mean_square, 1e-10) << round;
-    // No small step of a bar improves the barycentre.
+    // Checks that no small change of a bar improves the barycentre.
     for (Bar& bar : Bars(found.bars)) {
       Bars moved = found.bars;
       auto& other = *std::ranges::find(moved, bar);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Compares the points left in a tree with the points left in a list.
+// Takes points from a tree and from a list, and compares the points that are left.
 #include "libph/src/diagram/bottleneck/points_left.hpp"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@ namespace {
 
 std::vector<Point> random_points(std::mt19937& random, std::size_t count) {
   std::vector<Point> points;
-  // Few different coordinates, and therefore many equal distances.
+  // There are few different coordinates, and therefore many equal distances.
   for (std::size_t i = 0; i < count; ++i)
     points.push_back({static_cast<double>(random() % 20), static_cast<double>(random() % 20)});
   return points;

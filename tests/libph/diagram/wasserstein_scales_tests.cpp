@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Wasserstein distances that are far below the lengths of the bars: compares them with the best of
-// all matchings in long doubles, whose precision is sufficient for the powers.
+// Wasserstein distances that are far smaller than the lengths of the bars: compares them with the
+// best of all matchings, computed in long doubles, which are precise enough for the powers.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -55,8 +55,8 @@ struct Costs {
   }
 };
 
-// Tests the precision of prices: if every price were as coarse as the price of the most expensive
-// bar, matchings of order above about 6 would be random.
+// Tests the precision of prices. If every price had only the absolute precision of the highest
+// price, matchings of orders above about 6 would be random.
 TEST(WassersteinScales, SmallDifferencesOfLongBars) {
   for_each_seed(3000, [](Generator& random, bool has_ties, std::int64_t) {
     static constexpr double orders[]{1, 2, 3, 4, 8, 16, 30};
@@ -74,15 +74,15 @@ TEST(WassersteinScales, SmallDifferencesOfLongBars) {
       for (Bars* bars : {&a, &b})
         bars->push_back({1, scale * (bar.birth + shift()), scale * (bar.death + shift())});
     }
-    // Adds short bars, which cost about as much alone as in a pair.
+    // Adds short bars. An unmatched short bar costs about as much as a pair.
     for (Bars* bars : {&a, &b})
       for (int i = random.integer(0, 1); i > 0; --i) {
         const double birth = 1 + shift();
         bars->push_back({1, scale * birth, scale * (birth + 4 * apart * random.real())});
       }
     std::ranges::reverse(b);
-    // The bars are scaled such that long doubles have enough digits for the cost of the best
-    // matching.
+    // The oracle gets the bars divided by `scale`, so that their lengths are about 1 and long
+    // doubles have enough digits.
     std::vector<bool> used(b.size());
     Bars a_in_unit = a, b_in_unit = b;
     for (Bars* bars : {&a_in_unit, &b_in_unit})

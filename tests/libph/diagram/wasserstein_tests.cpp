@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Compares the Wasserstein distance with the best of all matchings for small diagrams, and with the
-// Hungarian method for larger ones.
+// Compares the Wasserstein distance between small diagrams with the best of all matchings, and
+// between larger diagrams with the result of the Hungarian method.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -29,7 +29,8 @@ double norm(double x, double y, double q) {
   return std::pow(std::pow(std::abs(x), q) + std::pow(std::abs(y), q), 1 / q);
 }
 
-/// The cost of a pair, and of an unmatched bar: its distance to the nearest point of the diagonal.
+/// The cost of a pair, and the cost of an unmatched bar, which is its distance to the nearest point
+/// of the diagonal.
 double pair_cost(const Bar& a, const Bar& b, double p, double q) {
   return std::pow(norm(a.birth - b.birth, a.death - b.death, q), p);
 }
@@ -110,8 +111,8 @@ double by_hungarian_method(const Bars& a, const Bars& b, double p, double q) {
 }
 
 /// Checks that bounds enclose a known distance, up to rounding.
-/// @param alone the cost of pairing all bars with the diagonal: rounding errors of prices are
-/// proportional to it.
+/// @param alone the cost of pairing all bars with the diagonal. The rounding errors of prices are
+/// proportional to this cost.
 void expect_distance(const DistanceBounds& found, double expected, const std::string& where,
                      double p = 1, double alone = 0) {
   ASSERT_NEAR(found.value, expected, 1e-11 * expected) << where;
@@ -166,7 +167,7 @@ TEST(Wasserstein, IsThatOfTheHungarianMethod) {
     const std::size_t most = round < 3 ? 300 : 60;
     const Bars a = random_bars(random, most / 2 + random() % (most / 2), steps);
     Bars b = random_bars(random, most / 2 + random() % (most / 2), steps);
-    if (round % 5 == 0) {  // similar to `a`
+    if (round % 5 == 0) {  // `b` is similar to `a`
       b = a;
       for (Bar& bar : b) bar.death += 0.05 * std::uniform_real_distribution<>()(random);
       std::ranges::shuffle(b, random);
@@ -214,8 +215,8 @@ TEST(Wasserstein, BoundsAreAsNearAsAsked) {
       }
     }
   }
-  EXPECT_GT(narrower, 30);  // otherwise, the bounds never differed
-  EXPECT_GT(beyond, 30);    // these computations stopped at the bound
+  EXPECT_GT(narrower, 30);  // in these rounds, the two bounds differed
+  EXPECT_GT(beyond, 30);    // in these rounds, the computation stopped at the bound
 }
 
 TEST(Wasserstein, OfDiagramsThatAreKnown) {
@@ -239,7 +240,7 @@ TEST(Wasserstein, BarsWithoutEndAreForEachOther) {
   const Bars b = {{0, 3.5, kInfinity}, {0, 0.25, kInfinity}};
   EXPECT_EQ(wasserstein_distance(a, b).value, 1.25);
   EXPECT_EQ(wasserstein_distance(a, b, {.order = 2}).value, std::sqrt(0.5625));
-  // Bars that are equal in both diagrams do not reduce the precision of the other bars.
+  // Equal bars in both diagrams do not reduce the precision of the result for the other bars.
   const Bars equal = {{0, 0, 5}, {0, 0, kInfinity}, {0, 100, kInfinity}, {0, 200, kInfinity}};
   const Bars moved = {{0, 0, 5}, {0, 19, kInfinity}, {0, 118, kInfinity}, {0, 205, kInfinity}};
   EXPECT_EQ(wasserstein_distance(equal, moved).value, 42);
@@ -289,8 +290,8 @@ TEST(Wasserstein, IsStable) {
   }
 }
 
-// Copies, bars on the diagonal, and lengths of many magnitudes have made other programs loop
-// forever or return wrong distances.
+// With copies of bars, bars on the diagonal, or lengths of many magnitudes, other programs have
+// looped forever or returned wrong distances.
 TEST(Wasserstein, OfManyCopies) {
   const Bars million(1'000'000, {1, 0.25, 0.75}), half(500'000, {1, 0.25, 0.75});
   for (const double p : {1.0, 2.0}) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Clouds in parts that are computed independently and joined in random groups and orders: compares
-// them with all pairs of points (by Prim's algorithm, implemented here) and with the same cloud as
-// a whole. Covers any number of parts, blocks and sample points, ties, copies, lattices, lines,
-// clusters far apart, and thresholds.
+// Clouds in parts that are computed independently and joined in random groups and orders. Compares
+// the components with Prim's algorithm on all pairs of points (implemented here), and with the
+// components of the whole cloud. Covers any number of parts, blocks and sample points, ties,
+// copies, lattices, lines, clusters far apart, and thresholds.
 #include "ph/parts/cloud_part.hpp"
 
 #include <gtest/gtest.h>
@@ -27,7 +27,7 @@
 namespace ph::test {
 namespace {
 
-/// Joins parts in random order until one is left. Now and then, a part is written to bytes and read
+/// Joins parts in random order until one is left. Occasionally, a part is written to bytes and read
 /// back.
 CloudPart joined(Generator& random, std::vector<CloudPart> parts) {
   const auto any = [&] {
@@ -55,7 +55,7 @@ std::vector<CloudPart> parts_of(PointsView points, int count, const CloudPartOpt
   return parts;
 }
 
-/// The deaths of the components, computed from all pairs without libph.
+/// The deaths of the components, computed from all pairs of points without libph.
 std::vector<double> deaths_by_all_pairs(const Points& points, double limit) {
   const auto n = static_cast<std::size_t>(points.rows());
   std::vector<double> nearest(n, std::numeric_limits<double>::infinity()), deaths;
@@ -157,7 +157,7 @@ TEST(CloudPart, HasTheComponentsOfAllPairs) {
     const Barcode without_cells = whole.barcode();
     ASSERT_TRUE(std::ranges::equal(without_cells, found));
     ASSERT_EQ(pairs_of(found), pairs_of(bars));
-    ASSERT_EQ(all_pairs(rips), pairs);  // includes pairs of length 0
+    ASSERT_EQ(all_pairs(rips), pairs);  // the pairs include pairs of length 0
     const MergeTree found_tree = merge_tree(rips);
     ASSERT_EQ(found_tree.births, tree.births);
     ASSERT_EQ(found_tree.merges, tree.merges);
@@ -182,7 +182,7 @@ TEST(CloudPart, OfManyPoints) {
   });
 }
 
-// A part is computed independently of other parts. It holds its block and the points near the
+// A part is computed without the other parts. It holds only its block and the points near the
 // block.
 TEST(CloudPart, LeavesOutWhatIsFar) {
   Generator random(1);
@@ -192,11 +192,11 @@ TEST(CloudPart, LeavesOutWhatIsFar) {
   one.graph(RipsForm::forest, of_one);
   const CloudPart part(points, 3, 16, {}, of_part);
   EXPECT_LT(of_part.memory.peak(), of_one.memory.peak() / 6);
-  // A part takes about 16 bytes per point of its block, and a little memory in addition.
+  // The bytes of a part are about 16 per point of its block, plus a little more.
   EXPECT_LT(part.bytes().size(), 200000 / 16 * 27);
 }
 
-// The squares of coordinates are beyond the range of doubles, in all parts or in only one.
+// In all parts or in only one part, the squares of coordinates are beyond the range of doubles.
 TEST(CloudPart, OfCoordinatesOfAnySize) {
   for_each_seed(600, [&](Generator& random, bool ties, std::int64_t) {
     Points points = random_cloud(random, 40, ties);
@@ -313,7 +313,7 @@ TEST(CloudPart, StopsAndKeepsToItsMemory) {
 }
 
 // Replaces a part by a part of another cloud that claims to belong to this cloud. The replacement
-// joins fewer points or other points, which is found in nearly all cases.
+// joins too few points or the wrong points. Such an error is detected in nearly all cases.
 TEST(CloudPart, FindsEdgesThatAreMissing) {
   constexpr std::size_t fingerprint = 40, bytes_of_it = 8;
   int found = 0, counted = 0, all = 0;
@@ -348,7 +348,7 @@ TEST(CloudPart, FindsEdgesThatAreMissing) {
   EXPECT_GT(found, all / 4);
 }
 
-// Every flipped bit must be detected.
+// Checks that every flipped bit is detected.
 TEST(CloudPart, RefusesDamagedBytes) {
   Generator random(8);
   const Points points = random.points(40, 2, true);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Compares H0 as a tree with brute force and with the oracle.
+// Compares merge trees of H0 with brute force and with the oracle.
 #include "ph/merge_tree.hpp"
 
 #include <numeric>
@@ -16,8 +16,8 @@ namespace {
 
 constexpr double kInf = kInfinity;
 
-// The connected components of a graph, computed by flooding. Each component is named by its oldest
-// vertex.
+// The connected components of a graph, computed by flood fill. Each component is named by its
+// oldest vertex.
 std::vector<Index> flooded(const std::vector<double>& births,
                            const std::vector<WeightedEdge>& edges, double value) {
   const auto n = births.size();
@@ -77,7 +77,7 @@ void check_tree(const MergeTree& tree, const std::vector<double>& births,
   }
   for (const double value : values)
     EXPECT_EQ(tree.components(value), flooded(births, edges, value));
-  // The merges are the finite bars of H0.
+  // The merges correspond to the finite bars of H0.
   std::vector<std::pair<double, double>> finite;
   for (const auto& bar : intervals(oracle, 0))
     if (bar.second < kInf) finite.push_back(bar);

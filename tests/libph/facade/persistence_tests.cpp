@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Tests the function persistence(): options, engines, estimates, and a filtration of the user's
-// own.
+// Tests the function persistence(): its options and engines, estimates, and a filtration defined by
+// the user.
 #include "ph/estimate.hpp"
 
 #include "ph/detail/rips/edge_collapse.hpp"
@@ -88,7 +88,8 @@ TEST(Options, MinPersistenceIsExclusive) {
   EXPECT_EQ(count(kInf), 1U) << "infinite bars stay";
 }
 
-// Over different fields, bars differ only by torsion. All large primes give the same bars.
+// Bars over different fields differ only if the homology has torsion. All large primes give the
+// same bars.
 TEST(Options, LargeCharacteristics) {
   const ExplicitComplex klein = vertex_by_vertex(klein_bottle());
   check(klein, 2, {65537, 2147483647});
@@ -178,7 +179,7 @@ TEST(Estimates, SampleTheCellsWhereTheyAreMany) {
 }
 
 // The memory that a computation takes lies in the predicted interval. This is tested for engines
-// that list cells and engines that do not, for metrics and for other distances.
+// with and without lists of cells, for points and for distance matrices.
 TEST(Estimates, HoldThePeak) {
   Generator random(11);
   const auto check_peak = [](const auto& input, const Options& options) {
@@ -204,7 +205,7 @@ TEST(Estimates, HoldThePeak) {
       check_peak(noise, {.max_dim = max_dim, .engine = engine, .collapse = Collapse::off});
     }
   }
-  // Here columns take far more than the fixed allowance.
+  // Here the columns need far more memory than the fixed allowance.
   check_peak(random.distances(140, false),
              {.max_dim = 2, .engine = Engine::cohomology, .collapse = Collapse::off});
 }
@@ -263,7 +264,7 @@ TEST(Estimates, OfNothing) {
   for (const AnyComplex& nothing : {AnyComplex(Rips(Points(0, 2))), AnyComplex(Cubical(Image{})),
                                     AnyComplex(ExplicitComplex::from_simplices({}))}) {
     const Estimate e = estimate(nothing);
-    EXPECT_LE(e.bytes_high, 5 << 20);  // the code and the allocator
+    EXPECT_LE(e.bytes_high, 5 << 20);  // memory for the code and the allocator
     for (const double count : e.cells) EXPECT_EQ(count, 0);
   }
 }
@@ -283,7 +284,7 @@ struct Square {
   void for_each_cell(int dim, Visit&& visit) const {
     if (dim > top_dim()) return;
     if (dim == 2) visit(20);
-    // Cofacets may be visited in any order.
+    // Cells may be visited in any order.
     for (int i = 3; dim < 2 && i >= 0; --i) visit(10 * dim + i);
   }
   template <class Visit>
@@ -319,8 +320,8 @@ TEST(UserFiltrations, EnginesThatNeedMoreSaySo) {
                [] { persistence(Square{}, {.max_dim = 0, .engine = Engine::union_find}); });
 }
 
-/// The same square, visiting its cofacets in the worst order, which `first_equal_cofacet_is_oldest
-/// = false` permits.
+/// The same square with cofacets. It visits cofacets in the worst order, which is allowed because
+/// first_equal_cofacet_is_oldest is false.
 struct SquareWithCofacets : Square {
   static constexpr bool first_equal_cofacet_is_oldest = false;
   unsigned key(Cell c) const { return static_cast<unsigned>(value(c)); }
@@ -336,8 +337,8 @@ TEST(UserFiltrations, CofacetsInAnyOrder) {
   for (const bool filled : {false, true}) check(SquareWithCofacets{{filled}}, 2);
 }
 
-/// Simplices with value 0, numbered from 0 in each dimension: a cell is unique only within its
-/// dimension, as the contract allows.
+/// Simplices with value 0, numbered from 0 in each dimension. As the contract allows, the number of
+/// a cell is unique only within its dimension.
 class NumberedByDimension {
  public:
   using Cell = unsigned;
@@ -397,7 +398,7 @@ class NumberedByDimension {
 };
 static_assert(CofacetFiltration<NumberedByDimension>);
 
-/// The same filtration without cofacets: no pair can be found without a reduction.
+/// The same filtration without cofacets, so all pairs must be found by a reduction.
 struct FacetsOnly : private NumberedByDimension {
   using Cell = unsigned;
   using NumberedByDimension::append_input_cell, NumberedByDimension::cell_kind,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Structs that callers fill in are checked like files: for any content, each struct or constructor
-// reports what it found. These tests should also run with sanitizers.
+// Structs that callers fill in are checked like files. Whatever the content, the struct or its
+// constructor reports what it found. These tests should also run with sanitizers.
 #include <gtest/gtest.h>
 
 #include <climits>
@@ -286,7 +286,7 @@ TEST(PublicStructs, Options) {
     cases.push_back({"field", kUsage, "field", [&, options] { persistence(cubical, options); }});
   }
   expect_errors(cases);
-  // A max_dim beyond all dimensions is allowed.
+  // A max_dim above the highest dimension is allowed.
   EXPECT_EQ(persistence(cubical, {.max_dim = INT_MAX}).size(), persistence(cubical).size());
   EXPECT_EQ(persistence(listed, {.max_dim = INT_MAX}).size(), persistence(listed).size());
 }

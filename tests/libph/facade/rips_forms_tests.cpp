@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Forms of a Rips filtration: each is made once, on the first request, by any caller, and after any
-// number of failures.
+// Forms of a Rips filtration. Each form is made only once, when a caller first requests it. If this
+// attempt fails, the next request tries again.
 #include <array>
 #include <atomic>
 #include <chrono>
@@ -113,7 +113,7 @@ TEST(RipsForms, OfOneRipsForManyThreads) {
   }
 }
 
-/// A metric that reports each call, and waits until it may answer.
+/// A metric that signals that it has been called, and waits until it may answer.
 struct Gate {
   std::atomic<bool> is_asked = false, may_answer = false;
 };
@@ -190,7 +190,7 @@ TEST(RipsForms, AreMadeAgainAfterAStop) {
   EXPECT_NO_THROW(rips.graph(RipsForm::edges, stopped)) << "it is there";
 }
 
-// The metric stops the computation in the middle.
+// The metric requests a stop in the middle of the computation.
 TEST(RipsForms, AreMadeAgainAfterAStopInTheMiddle) {
   struct Stopping {
     std::stop_source* source;
@@ -251,7 +251,8 @@ TEST(RipsForms, OutliveTheContextOfTheCall) {
   for (const RipsForm form : {RipsForm::edges, RipsForm::forest}) rips.graph(form, *call);
   source.request_stop();
   call.reset();
-  // Data that engines add to a form later count towards the form's budget.
+  // The context of the calls that made the forms no longer exists. Data that engines add to a form
+  // now count towards the budget of the form.
   for (const Rips& used : {rips, plain})
     for (const Engine engine : {Engine::edge_links, Engine::cohomology, Engine::twist})
       EXPECT_GT(persistence(used, {.engine = engine}).size(), 0U);
@@ -279,7 +280,7 @@ TEST(RipsForms, CountInTheContextOfTheConstructor) {
   EXPECT_EQ(home.memory.used(), 0U);
   expect_counted(Rips::borrowed(points, {}, home), 0);
   EXPECT_EQ(home.memory.used(), 0U);
-  expect_counted(Rips(distances, {}, home), 0);  // the caller holds the distances as well
+  expect_counted(Rips(distances, {}, home), 0);  // the distances are shared with the caller
   EXPECT_EQ(home.memory.used(), 0U);
   const SparseDistances sparse(3, {{0, 1, 1}, {1, 2, 1}});
   expect_counted(Rips(sparse, {}, home), 0);
@@ -362,7 +363,7 @@ TEST(RipsInputs, ForgottenTheyLeaveWhatWasMade) {
   EXPECT_EQ(pairs_of(run(alone, by_points)), expected);
 }
 
-/// A metric with a token that shows whether any object still holds the metric.
+/// A metric that holds a token, which shows whether any object still holds the metric.
 struct Held {
   std::shared_ptr<int> token = std::make_shared<int>(0);
   Index size() const { return 9; }

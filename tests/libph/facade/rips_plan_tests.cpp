@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Tests which form of a Rips filtration is planned, and that all forms have the same bars.
+// Tests which form of a Rips filtration is planned, and that all forms give the same bars.
 #include <fmt/format.h>
 
 #include <array>
@@ -24,7 +24,7 @@ constexpr std::array kDistances{PointDistance::euclidean, PointDistance::manhatt
                                 PointDistance::chebyshev, PointDistance::hamming};
 constexpr std::array kExponents{WeightExponent::infinity, WeightExponent::one, WeightExponent::two};
 
-/// Points with ties, copies, or in general position.
+/// Points in general position, or points with ties and copies.
 Points random_points(Generator& random, Index most, bool ties) {
   Points points =
       random.points(random.integer(0, static_cast<int>(most)), random.integer(1, 4), ties);
@@ -82,7 +82,7 @@ TEST(RipsPlans, TakeTheFormThatIsEnough) {
   EXPECT_EQ(plan(Cubical(Image{{2}, {0, 1}})).form, std::nullopt);
 }
 
-// An edge would take 16 bytes, and there are 2 * 10^8 pairs.
+// An edge takes 16 bytes, and there would be 2 * 10^8 edges.
 TEST(RipsPlans, MakeNoEdges) {
   const Points points = Generator(1).points(20'000, 3, false);
   const auto expect_little = [&](const RipsOptions& options, const Options& task) {
@@ -103,7 +103,7 @@ TEST(RipsPlans, MakeNoEdges) {
     expect_little(options, {.representatives = Representatives::cycles});
     expect_little(options, {.engine = Engine::edge_links});
   }
-  // Components and loops of points in the plane need no edges.
+  // Edges are not needed for components and loops of points in the plane.
   const Points plane = Generator(1).points(20'000, 2, false);
   for (const int max_dim : {0, 1}) {
     RunContext home;
@@ -123,7 +123,7 @@ std::string said(const RunPlan& plan) {
                      static_cast<int>(options.collapse), plan.reason, plan.collapse_reason);
 }
 
-/// The plan as text, or the reason why there is none.
+/// The plan as text, or the reason why no plan is possible.
 std::string said(const Rips& rips, const Options& task,
                  const RunContext& context = default_context()) {
   try {
@@ -172,8 +172,8 @@ TEST(RipsPlans, DependOnNothingButQuestionAndTask) {
   EXPECT_TRUE(is_enough(planned, 1000)) << planned;
 }
 
-// Planning again with the options of a plan does not change the plan. Plans that lower max_dim to
-// 0, because there are no edges, are left out.
+// A plan that is made from the options of another plan equals that plan. Plans that lower max_dim
+// to 0, because there are no edges, are left out.
 TEST(RipsPlans, AreSettled) {
   for_each_seed(300, [](Generator& random, bool ties, std::int64_t field) {
     const Rips rips(random_points(random, 12, ties));
@@ -249,7 +249,7 @@ TEST(RipsForms, HaveTheSameBarsAndCells) {
     if (!options.births.empty()) {
       EXPECT_EQ(distinct, all) << "copies with births are not merged";
     }
-    // The plan must give these bars, whatever it decides.
+    // Whatever the plan decides, it must give these bars.
     const auto planned = [&](int dim, double least, std::optional<bool> merges) {
       RipsOptions asked = options;
       asked.merge_equal_points = merges;
@@ -433,8 +433,8 @@ TEST(RipsEstimates, NeverExceedTheMemoryLimit) {
     EXPECT_EQ(e.cells[0], 20'000);
     EXPECT_EQ(e.counted_dims, 1) << "edges are estimated";
     EXPECT_FALSE(e.built.edges);
-    // The estimate considers only sampled points as centres, and therefore its radius is at least
-    // the enclosing radius.
+    // For the enclosing radius, the estimate considers only sampled points as centres. Its radius
+    // is therefore at least the enclosing radius.
     EXPECT_GT(e.cells[1], 0.95 * of_all);
     EXPECT_LT(e.cells[1], 1.25 * of_all);
     EXPECT_GT(e.bytes_low, 0.85 * 16 * of_all);
@@ -464,7 +464,7 @@ TEST(RipsEstimates, OfWhatNeedsNoEdgesAreMade) {
   }
 }
 
-// The message is the same whether a form exists, can be made, or cannot be made.
+// The estimate is the same whether it is the first or a later one, and agrees with the plan.
 TEST(RipsEstimates, WhereTheyFitAreThoseOfTheForm) {
   for_each_seed(100, [](Generator& random, bool ties, std::int64_t field) {
     const Rips rips(random_points(random, 20, ties));
@@ -492,7 +492,7 @@ TEST(RipsEstimates, OfGraphsThatWereGiven) {
   EXPECT_EQ(estimate(used).cells, expected.cells);
 }
 
-// If many points have few edges, the edges are built and counted exactly.
+// If there are many points but few edges, the edges are built and counted exactly.
 TEST(RipsEstimates, OfFewEdgesAreExact) {
   Points copies(4'000, 2);
   for (Index i = 0; i < copies.rows(); ++i) {

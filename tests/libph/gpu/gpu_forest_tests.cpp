@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The forest that a GPU finds equals the forest that the CPU finds, edge for edge and bit for bit.
+// The GPU finds the same forest as the CPU, edge for edge and bit for bit.
 #include <cmath>
 #include <cstring>
 
@@ -83,7 +83,7 @@ TEST_F(GpuForest, IsThatOfTheCpu) {
     expect_same(points);
     RipsOptions options;
     const auto edges = edges_of(points, {});
-    if (edges.empty()) return;  // tests a threshold equal to an edge, and the next smaller number
+    if (edges.empty()) return;  // the threshold equals an edge, or is the next smaller number
     options.threshold = edges[static_cast<std::size_t>(random.real() * double(edges.size()))].value;
     expect_same(points, options);
     options.threshold = std::nextafter(*options.threshold, 0.0);

@@ -44,8 +44,8 @@ Eigen::RowVectorXd centre(const PointImage& image, Index i) {
   return x;
 }
 
-// An array in any layout gives the same image as a loop over its voxels. An array in C order is not
-// copied.
+// For any memory layout, the image of an array equals the image that a loop over the elements
+// gives. An array in C order is not copied.
 TEST(ImageOfArray, TakesAnyLayout) {
   std::mt19937 random(5);
   int borrowed = 0, copied = 0;
@@ -145,7 +145,8 @@ TEST(VoxelImage, IsTheDistanceToTheNearestOccupiedVoxel) {
     const auto size = static_cast<Index>(image.image.values.size());
     for (Index i = 0; i < size; ++i)
       if (image.image.values[static_cast<std::size_t>(i)] == 0) occupied.push_back(i);
-    // Each point lies in an occupied voxel, and each occupied voxel has a point.
+    // Checks that each point lies in an occupied voxel, and that each occupied voxel contains a
+    // point.
     const auto has = [&](Index i, Index p) {
       return ((as_matrix(points).row(p) - centre(image, i)).cwiseAbs().array() <=
               0.5 * voxel + 1e-12)
@@ -185,7 +186,7 @@ TEST(VoxelImage, CountsPointsAndTellsWhereTheyAre) {
     EXPECT_TRUE(std::isnan(found[1])) << "a voxel without points is absent";
     EXPECT_EQ(found[2], is_count ? -1 : 0);
   }
-  // Absent voxels join nothing.
+  // Absent voxels do not join occupied voxels.
   const PointImage density = voxel_image(points, 1, VoxelValue::density);
   EXPECT_EQ(persistence(Cubical(density.image)).bars(0).size(), 2U);
 }
@@ -246,7 +247,7 @@ TEST(VoxelImage, RefusesWhatItCannotDo) {
   EXPECT_EQ(kind(two, 0.01, VoxelValue::distance, Index{1}, little), ErrorKind::resource);
 }
 
-// An image with a single line. Processing a line takes as much memory as the image.
+// The image is a single line. Processing the line takes as much memory as the image.
 TEST(VoxelImage, CountsWhatALineTakes) {
   const Points ends{{0}, {1000}};
   const auto with_limit = [&](std::size_t bytes) {
@@ -338,10 +339,10 @@ TEST(Voxels, AreChangedInPlaceByTheirOnlyOwner) {
   EXPECT_EQ(voxels, (Voxels{5, 2, 3}));
 }
 
-// Each thread has its own copy of the voxels and sees no changes of the other thread. The thread
-// that comes later is then the only owner and changes the numbers in place, after the other thread
-// has read them. Only the reference count orders these accesses (the flag does not), and
-// ThreadSanitizer watches them.
+// Each of two threads has its own copy of the voxels, and does not see changes by the other thread.
+// The second thread waits until the first thread has made its change. After that, it is the only
+// owner of the old numbers and changes them in place. Only the reference count orders these
+// accesses (the flag does not), and ThreadSanitizer checks the order.
 TEST(Voxels, AreChangedByThreadsWithACopyEach) {
   Voxels early{1, 2, 3}, late = early;
   const void* const place = late.data();

@@ -43,7 +43,7 @@ TEST(ReadNpy, PointsKeepToTheBudget) {
     EXPECT_TRUE(
         fails_with(ErrorKind::resource, [&] { read_points(input, {.context = &context}); }));
   };
-  // Memory for the array and for the points.
+  // Memory is needed for the array and for the points.
   check(npy("<f4", "False", "(500, 3)", floats), numbers * (4 + 8));
   check(npy("<f8", "False", "(500, 3)", doubles), numbers * (8 + 8));
 }
@@ -91,8 +91,8 @@ TEST(ReadNpy, BringsFortranOrderToCOrder) {
 TEST(ReadNpy, BringsFortranOrderOfAnyShapeToCOrder) {
   for (const std::vector<Index>& extents : std::vector<std::vector<Index>>{
            {19}, {1, 9}, {9, 1}, {17, 8}, {8, 23}, {11, 3, 9}, {2, 1, 3, 1, 2}, {9, 2, 2, 17}}) {
-    // Each value states its own position in C order. The array is written with the first axis
-    // fastest.
+    // The value of each element is its position in C order. The array is written such that the
+    // first axis varies fastest.
     std::size_t count = 1;
     std::string shape;
     for (const Index extent : extents) {
@@ -231,7 +231,7 @@ TEST(ReadPhat, TakesValues) {
   const std::vector<double> expected{0, 0, 1.5};
   EXPECT_EQ(read_phat(matrix, text).matrix.values, expected);
   EXPECT_EQ(read_phat(matrix, raw).matrix.values, expected);
-  // Doubles whose bytes are printable in part, but are not valid UTF-8.
+  // A double, some of whose bytes are printable characters. The bytes are not valid UTF-8.
   EXPECT_EQ(read_values(Input::view("\xda\x29\xc1\xd3\xbc\x3b\xd3\x3f", "v"), 1).size(), 1U);
   bad_data([] { read_values(Input::view("1.5 abc\n", "v"), 1); });
   const ReadResult any = read_any(matrix, Format::automatic, {}, raw);
@@ -288,12 +288,12 @@ TEST(Png, RefusesAnyFlippedByte) {
   for (std::size_t i = 0; i < whole.size(); ++i) {
     std::string bytes = whole;
     bytes[i] = static_cast<char>(bytes[i] ^ 0x20);
-    // A flipped byte in its name can turn a chunk into one that decoders may skip.
+    // If a bit is flipped in the name of a chunk, decoders may be allowed to skip the chunk.
     fails_with(ErrorKind::bad_data, [&] {
       EXPECT_EQ(read_png(Input::view(bytes, "r.png")).samples, right.samples) << i;
     });
   }
-  // Only the signature and IHDR; its checksum is corrected below.
+  // Keeps only the signature and the IHDR chunk, so the pixels are missing.
   std::string bomb = whole.substr(0, 33);
   bomb[16] = bomb[20] = 0;
   EXPECT_TRUE(contains(bad_data([&] { read_png(Input::view(bomb, "r.png")); }), "r.png: byte"));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Readers that take a path, and the descriptions that read_any gives of each kind of result.
+// Readers that take a path, and the description that read_any gives for each kind of result.
 #include <limits>
 
 #include "ph/io/read.hpp"

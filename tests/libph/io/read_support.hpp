@@ -19,7 +19,7 @@
 
 namespace ph::test {
 
-/// Stands for an absent voxel, because NaN equals nothing.
+/// Stands for an absent voxel. NaN cannot be used in comparisons, because it equals nothing.
 inline constexpr double kMark = -987654321;
 
 /// The numbers of an image, with kMark for absent voxels.
@@ -30,8 +30,8 @@ inline std::vector<double> marked(const Voxels& voxels) {
   return numbers;
 }
 
-/// The message of the bad_data error that `f` throws. The test fails if `f` throws something else
-/// or nothing.
+/// The message of the bad_data error that `f` throws. The test fails if `f` throws another error or
+/// no error.
 template <class F>
 std::string bad_data(F&& f) {
   try {
@@ -44,8 +44,8 @@ std::string bad_data(F&& f) {
   return {};
 }
 
-/// Calls `read(Input)` on every proper prefix of `bytes`. `read` must throw bad_data, or succeed
-/// where `complete(length)` says that the prefix is a complete input.
+/// Calls `read(Input)` on every proper prefix of `bytes`. `read` must throw bad_data. It may
+/// succeed only if `complete(length)` says that the prefix is a complete input.
 template <class Read, class Complete>
 void check_prefixes(const std::string& bytes, const std::string& name, Read read,
                     Complete complete) {
@@ -106,7 +106,7 @@ inline bool contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
-/// The image read from bytes, as from a file with this name.
+/// The image that is read from the bytes, as if they were the content of a file with this name.
 inline Image image_of(const std::string& bytes, const std::string& name,
                       const ReadOptions& options = {}) {
   ReadResult result = read_any(Input::view(bytes, name), Format::automatic, options);

@@ -273,7 +273,7 @@ TEST(ReadOff, ReadsMeshes) {
   }
   check_prefixes(
       text, "m.off", [](const Input& in) { read_off(in); },
-      // A face is still complete if its colour is missing or has fewer digits.
+      // A face is still complete if its colour is missing or lacks digits.
       [&](std::size_t length) { return length + 5 >= text.size(); });
   for (const char* bad :
        {"OFF\n1000000000000 0 0\n", "OFF\n-1 0 0\n", "OFF\n1 1 0\n0 0 0\n3 0 0 1\n",

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Combinations of options: compares any small complex, with any options that its engines accept,
-// with the oracle, which computes all bars of positive length. Options that save work must not lose
-// bars.
+// Combinations of options: runs small complexes of any kind with any options that the engines
+// accept, and compares the bars with the oracle. The oracle computes all bars of positive length.
+// Options that save work must not lose bars.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@ namespace {
 
 constexpr int kSeeds = 1500;
 
-/// The bars of the oracle that the options select.
+/// The bars of the oracle that are selected by the options.
 template <class Complex>
 std::vector<Pair> expected_bars(const Complex& complex, const Options& options) {
   const Options all{.max_dim = options.max_dim, .field = options.field, .engine = Engine::standard};
@@ -35,8 +35,7 @@ void forget_cells(std::vector<Pair>& pairs) {
   std::sort(pairs.begin(), pairs.end());
 }
 
-/// @param engines engines that can compute complexes of this kind, though perhaps not with all
-/// options.
+/// @param engines engines for complexes of this kind. An engine need not support all options.
 /// @return the number of bars that were compared.
 template <class Complex>
 std::size_t agree(Generator& random, const Complex& complex, const std::vector<Engine>& engines,
@@ -66,7 +65,7 @@ std::size_t agree(Generator& random, const Complex& complex, const std::vector<E
     return 0;
   }
   std::vector<Pair> expected = expected_bars(complex, options);
-  // If edges were collapsed, the bars may name other edges of the same value.
+  // If edges are collapsed, the bars may name different edges with the same value.
   if (!options.cells || options.collapse != Collapse::off) {
     forget_cells(found);
     forget_cells(expected);

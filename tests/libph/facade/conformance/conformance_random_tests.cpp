@@ -43,7 +43,7 @@ TEST(RandomConformance, WideRipsCells) {
   });
 }
 
-/// The pairs computed by many threads, where each thread takes one column at a time.
+/// The pairs computed by several threads. Each thread takes one column at a time.
 template <class F>
 std::vector<Pair> pairs_of_threads(const F& f, int max_dim, std::int64_t field, int threads,
                                    bool oldest_first = false) {
@@ -80,8 +80,8 @@ TEST(RandomConformance, AnyNumberOfThreads) {
   });
 }
 
-// Long columns take pivots from each other. The bars must equal the bars from one thread, which
-// runs the sequential algorithm.
+// Columns are long and take each other's pivots. The bars must equal the bars from one thread,
+// which runs the sequential algorithm.
 TEST(RandomConformance, ThreadsOnManyColumns) {
   for_each_seed(8, [](Generator& random, bool ties, std::int64_t field) {
     const Rips rips(random.distances(26, ties));
@@ -114,7 +114,8 @@ TEST(RandomConformance, LinkStopsWhereNothingHappens) {
   EXPECT_TRUE(is_enough(late, std::size_t{1000})) << late;
 }
 
-// With many classes and long vectors, generators disappear and return, and vectors become equal.
+// There are many classes, and vectors are long. As a result, generators disappear and return, and
+// vectors become equal.
 TEST(RandomConformance, LinkOfWideClasses) {
   for_each_seed(60, [](Generator& random, bool ties, std::int64_t field) {
     const Rips rips(random.distances(random.integer(24, 34), ties));
@@ -145,8 +146,8 @@ TEST(RandomConformance, LinkOfManyVertices) {
   });
 }
 
-// The limits are low: cocycles are kept as formal sums from the start, and relations are solved at
-// once or later.
+// The limits are so low that cocycles are kept as formal sums from the start. Relations are solved
+// at once or later.
 TEST(RandomConformance, LinkFormally) {
   std::size_t finite = 0;
   for_each_seed(8000, [&](Generator& random, bool ties, std::int64_t) {
@@ -169,7 +170,8 @@ TEST(RandomConformance, LinkFormally) {
   EXPECT_TRUE(is_enough(finite, std::size_t{1000})) << finite;  // the test covers enough cases
 }
 
-// The same test with many classes of edges: lists turn into rows of bits more than once.
+// Repeats the test with many classes of edges. The lists of relations turn into rows of bits more
+// than once.
 TEST(RandomConformance, LinkFormallyOfManyPoints) {
   for_each_seed(100, [](Generator& random, bool ties, std::int64_t) {
     const Rips rips(random.distances(random.integer(60, 150), ties));
@@ -186,8 +188,8 @@ TEST(RandomConformance, LinkFormallyOfManyPoints) {
   });
 }
 
-// There are enough points for many classes of H2 to be alive at once. Cocycles turn into rows of
-// bits at once, later or never.
+// There are enough points for many classes of H2 to be alive at the same time. Depending on the
+// limits, cocycles turn into rows of bits at once, later or never.
 TEST(RandomConformance, LinkSurfaces) {
   std::size_t finite = 0;
   for_each_seed(10000, [&](Generator& random, bool ties, std::int64_t field) {
@@ -229,7 +231,7 @@ Points random_sphere(Generator& random, Index n) {
   return sphere;
 }
 
-// A single cocycle with many triangles.
+// On a sphere, there is a single cocycle, which has many triangles.
 TEST(RandomConformance, LinkSurfacesOfSpheres) {
   for_each_seed(12, [](Generator& random, bool, std::int64_t field) {
     const Rips rips(random_sphere(random, 100));
@@ -268,7 +270,7 @@ TEST(RandomConformance, SimplicialComplexes) {
   });
 }
 
-// Loops and parallel edges are allowed here.
+// These graphs may have edges from a vertex to itself, and parallel edges.
 TEST(RandomConformance, FilteredGraphs) {
   for_each_seed(2000, [](Generator& random, bool ties, std::int64_t field) {
     std::vector<double> births(static_cast<std::size_t>(random.integer(1, 9)));
@@ -287,7 +289,7 @@ TEST(RandomConformance, FilteredGraphs) {
     EXPECT_EQ(pairs_of(graph, 1, field, Engine::twist), oracle);
     EXPECT_EQ(pairs_of(graph, 0, field, Engine::union_find),
               pairs_of(graph, 0, field, Engine::standard));
-    // The suite identifies cells by their vertices, and therefore gets no parallel edges.
+    // The suite identifies cells by their vertices, so its graphs have no parallel edges.
     std::set<std::pair<Index, Index>> seen;
     std::erase_if(
         edges, [&](const WeightedEdge& e) { return !seen.insert(std::minmax(e.u, e.v)).second; });
@@ -296,7 +298,7 @@ TEST(RandomConformance, FilteredGraphs) {
   });
 }
 
-// Complexes that are large enough for methods that only pay off for many cells.
+// The complexes are large enough for methods that pay off only for many cells.
 TEST(RandomConformance, MoreCells) {
   Generator random(7);
   for (const bool ties : {true, false}) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Tests changes of the input that must not change a barcode, or must change it in a known way.
+// Tests changes of the input that must leave the barcode as it is, or change it in a known way.
 #include <chrono>
 
 #include "ph/eigen.hpp"
@@ -55,8 +55,8 @@ TEST(Invariance, PowersOfTwoScaleExactly) {
   });
 }
 
-// A bar that dies after the threshold never dies, and a bar that is born after the threshold does
-// not exist.
+// If a threshold is set, a bar that would die after the threshold never dies, and a bar that would
+// be born after the threshold does not exist.
 TEST(Invariance, AThresholdCutsTheBarcode) {
   for_each_cloud([](Generator& random, const Points& points) {
     const std::vector<Bar> full = rips_bars(points);

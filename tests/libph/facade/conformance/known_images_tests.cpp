@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Images of known homology: shells, rings, boxes with periodic axes.
+// Images with known homology: shells, rings, boxes with periodic axes.
 #include "tests/support/conformance.hpp"
 #include "tests/support/generators.hpp"
 #include "tests/support/known_spaces.hpp"
@@ -12,7 +12,8 @@ using Construction = CubicalOptions::Construction;
 constexpr double kInf = kInfinity;
 constexpr Construction kBoth[] = {Construction::vertices, Construction::cells};
 
-/// An image of side `n` along `dim` axes, with `value(coordinates)` at each voxel.
+/// An image with `dim` axes of `n` voxels. The function `value(coordinates)` gives the value of
+/// each voxel.
 template <class Value>
 Image make_image(int dim, Index n, Value&& value) {
   std::vector<double> values;
@@ -29,8 +30,8 @@ bool is_on_border(const std::vector<Index>& at, Index n) {
   return std::ranges::any_of(at, [n](Index x) { return x == 0 || x == n - 1; });
 }
 
-// The surface of a cube of voxels has value 0, and the inside has value 1: a sphere is alive from 0
-// to 1.
+// The surface of a cube of voxels has the value 0, and the inside has the value 1. Therefore the
+// class of a sphere is alive from 0 to 1.
 TEST(KnownImages, ShellsAreSpheres) {
   for (int dim = 2; dim <= 4; ++dim) {
     for (const Construction construction : kBoth) {
@@ -112,7 +113,8 @@ TEST(KnownImages, DiagonalNeighboursTellTheConstructionsApart) {
 
 int binomial(int n, int k) { return k == 0 ? 1 : binomial(n, k - 1) * (n - k + 1) / k; }
 
-// If all axes are periodic, the box is a torus, for any values and even for axes of one voxel.
+// A box whose axes are all periodic is a torus, whatever its values are, and even if axes have only
+// one voxel.
 TEST(KnownImages, PeriodicBoxesAreTori) {
   Generator random(1);
   const auto expect_torus = [&](const std::vector<Index>& extents) {

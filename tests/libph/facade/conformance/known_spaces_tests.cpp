@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Spaces of known homology: runs each through the whole suite, and compares it with the textbook.
+// Spaces with known homology: runs the whole suite on each space, and compares its homology with
+// textbooks.
 #include "tests/support/known_spaces.hpp"
 
 #include "tests/support/conformance.hpp"
@@ -11,7 +12,7 @@ using Betti = std::vector<int>;
 using Intervals = std::vector<std::pair<double, double>>;
 constexpr double kInf = kInfinity;
 
-// In whatever order a space is built, the classes that never die are its homology.
+// The classes that never die are the homology of the space, in whatever order the space is built.
 void expect_homology(const Simplices& space, int top, std::int64_t field, const Betti& expected) {
   for (const auto& complex : {all_at_once(space), vertex_by_vertex(space)}) {
     EXPECT_EQ(complex.top_dim(), top);
@@ -69,7 +70,7 @@ TEST(KnownSpaces, SpheresUpToDimensionFour) {
 // ---- Vietoris-Rips
 
 // Adamaszek & Adams, The Vietoris-Rips complexes of a circle: the complex is homotopy equivalent to
-// a circle as long as edges are shorter than a third of the circle.
+// a circle as long as its edges are shorter than the side of an inscribed equilateral triangle.
 TEST(KnownSpaces, RipsOfACircle) {
   for (const Index n : {4, 5, 6, 7, 9, 12}) {
     const Rips rips(circle(n));
@@ -84,7 +85,8 @@ TEST(KnownSpaces, RipsOfACircle) {
   }
 }
 
-// In the maximum metric, the complex of a product is the product of the complexes, up to homotopy.
+// In the maximum metric, the complex of a product of spaces is homotopy equivalent to the product
+// of their complexes.
 TEST(KnownSpaces, RipsOfAFlatTorus) {
   const Rips small(FlatSurface{5, 5});
   check(small, 1, {2, 3});
@@ -140,7 +142,7 @@ TEST(KnownSpaces, RipsOfARegularSimplexIsContractible) {
 
 // ---- lower stars
 
-// The height on the octahedron has a minimum and a maximum, and no other critical point.
+// The height function on the octahedron has a minimum, a maximum, and no other critical point.
 TEST(KnownSpaces, HeightOfASphere) {
   const std::vector<double> height{0, 0, 0, 0, 1, -1};
   const ExplicitComplex mesh = filtered(cross_polytope(2), height);

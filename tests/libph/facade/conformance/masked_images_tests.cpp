@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Images with a mask: compares every engine with the oracle, for which the cubes are listed by the
-// definition.
+// Images with a mask: compares every engine with the oracle, which gets a list of the cubes that
+// follows the definition.
 #include <array>
 #include <cmath>
 #include <cstring>
@@ -23,7 +23,7 @@ namespace {
 
 constexpr double kAbsent = std::numeric_limits<double>::quiet_NaN();
 
-/// A small image in which some voxels are absent and others infinite.
+/// A small image in which some voxels are absent and some voxels have the value infinity.
 Image masked_image(Generator& random, const std::vector<Index>& extents, bool ties) {
   Image image = random.image(extents, ties);
   const int share = random.integer(1, 6);
@@ -44,13 +44,13 @@ std::vector<Index> random_extents(Generator& random, int most_axes) {
   return extents;
 }
 
-/// An image with the same numbers in another type, or in memory that counts as a file.
+/// The same image with its numbers in another type, or in memory that is marked as a file.
 Image stored_otherwise(Generator& random, const Image& image) {
   Image other = image;
   const std::vector<double> numbers = image.values.doubles();
   if (random.coin()) other.values = std::vector<float>(numbers.begin(), numbers.end());
   if (random.integer(0, 7) == 0) {
-    // Copies the values to whole pages of a file, which are released during the computation.
+    // Copies the values to a mapped file, whose pages are released during the computation.
     const std::size_t bytes = other.values.size() * bytes_of(other.values.type());
     auto file = std::make_shared<ScratchFile>(bytes);
     std::memcpy(file->data(), other.values.data(), bytes);
@@ -68,7 +68,7 @@ TEST(MaskedImages, AreWhatTheDefinitionSays) {
     if (random.integer(0, 3) == 0) options.threshold = random.integer(-1, 2);
     const Image stored = stored_otherwise(random, image);
     Image listed = image;
-    listed.values = stored.values.doubles();  // the values after rounding to floats
+    listed.values = stored.values.doubles();  // the numbers after a possible conversion to floats
     const int max_dim = static_cast<int>(extents.size());
     const Barcode oracle =
         persistence(listed_cubes(listed, options),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Cycles and cocycles of random small filtrations, checked by the definitions.
+// Checks cycles and cocycles of random small filtrations by their definitions.
 #include "tests/support/for_each_seed.hpp"
 #include "tests/support/representatives.hpp"
 

@@ -116,7 +116,7 @@ TEST(ReadBarcode, JsonSaysWhereItCameFrom) {
       bad_data([&] { stored(R"({"format": "ph-barcode", "superlevel": 1, "bars": []})"); }),
       "expected true or false"));
   EXPECT_TRUE(stored(R"({"format": "ph-barcode", "superlevel": false, "bars": []})").bars.empty());
-  // Facts that a file does not state are unknown, and are not written.
+  // If a file does not state a fact, the fact is unknown and is not written.
   const StoredBarcode bare = stored(R"({"format": "ph-barcode", "bars": [], "threshold": null})");
   EXPECT_EQ(bare.info.complex, "");
   EXPECT_EQ(bare.info.threshold, std::nullopt);

@@ -19,7 +19,7 @@ TEST(ReadBarcode, EveryFormatByContent) {
     for (std::size_t i = 0; i < read.size(); ++i) {
       EXPECT_EQ(read[i].dim, barcode[i].dim);
       const auto same = [&](double a, double b) {
-        // Ripser prints six digits.
+        // Ripser's format has six digits.
         return a == b || (format == BarcodeFormat::ripser && std::abs(a - b) <= 1e-6 * std::abs(b));
       };
       EXPECT_TRUE(same(read[i].birth, barcode[i].birth)) << barcode_format_name(format) << i;
@@ -51,7 +51,7 @@ TEST(ReadBarcode, EmptyOnesToo) {
   bad_data([] { back("\n# nothing\n"); });
 }
 
-// --significance writes p-values next to the bars.
+// The option --significance adds a column of p-values to the bars.
 TEST(ReadBarcode, ValuesOfPMayFollow) {
   const auto stored = [](const std::string& text) {
     return read_stored_barcode(Input::view(text, "b.csv"));
@@ -66,7 +66,7 @@ TEST(ReadBarcode, ValuesOfPMayFollow) {
                  "b.csv:2:7"));
 }
 
-// Column names and orders of pandas, R and other programs of the field.
+// The columns have the names and the order that pandas, R and other programs use.
 TEST(ReadBarcode, ColumnsByName) {
   for (const char* text :
        {"birth,death,dim\n0,1,0\n0.5,inf,1\n", ",dim,birth,death\n0,0,0,1\n1,1,0.5,inf\n",
@@ -180,7 +180,7 @@ TEST(ReadBarcode, RowsOfAnArrayThatAreNoBars) {
   EXPECT_TRUE(contains(bad_data([&] { back(square, "b.npy"); }), "shape (3, 1)"));
 }
 
-// CubicalRipser writes two positions after each bar, and the largest double in place of infinity.
+// CubicalRipser writes two positions after each bar, and writes infinity as the largest double.
 TEST(ReadBarcode, RowsWithVoxels) {
   constexpr double kLargest = std::numeric_limits<double>::max();
   for (const std::size_t width : {9, 11}) {

@@ -21,7 +21,7 @@ inline Barcode example(CellKind kind = CellKind::vertices) {
   return barcode;
 }
 
-/// The content of the file that is written for a barcode.
+/// The content of the file to which a barcode is written.
 inline std::string text_of(const Barcode& barcode, BarcodeFormat format) {
   const TempDir dir;
   OutputFile file(dir.file("barcode").string());

@@ -43,7 +43,7 @@ TEST(Gzip, DamageIsRefused) {
   for (std::size_t i = 2; i < whole.size(); ++i) {
     std::string bytes = whole;
     bytes[i] = static_cast<char>(bytes[i] ^ 0x10);
-    // A changed flag or time in the header need not cause an error.
+    // A changed flag or time in the header may remain undetected.
     fails_with(ErrorKind::bad_data,
                [&] { EXPECT_EQ(Input::open(dir.write("flipped.gz", bytes)).text(), text) << i; });
   }

@@ -57,7 +57,7 @@ TEST(Camera, IsReadAsProgramsWriteIt) {
   for (const std::string& text : {kTopic, kTopic + kTopic, replaced(kTopic, "k:\n", "K:\n"),
                                   replaced(kTopic, "header:", "---\nheader:")})
     expect_usual(camera_of(text));
-  // Texts that span several lines, mappings in braces, and colons within words are ignored.
+  // Values that span several lines, mappings in braces, and colons within words are ignored.
   expect_usual(camera_of(replaced(
       kTopic, "height: 480",
       "by:  # whom\n  a:b: c\nnote: |\n  k: 1\n\n  width: 2\nmore: >-\n  d: 3\nroom: {k: 1}\n"
@@ -168,7 +168,7 @@ TEST(Camera, FaultsNameTheirPlace) {
   }
 }
 
-/// The lens models as given in their papers and in OpenCV's documentation.
+/// The lens models as defined in the original papers and in OpenCV's documentation.
 std::array<double, 2> by_the_book(const Lens& lens, double x, double y) {
   const auto& c = lens.coefficients;
   const double r = std::sqrt(x * x + y * y);
@@ -235,7 +235,7 @@ TEST(Camera, ScalesToImagesOfItsShape) {
   const Camera half = camera.scaled_to(320, 240);
   EXPECT_EQ(half.intrinsics.fx, 300);
   EXPECT_EQ(half.intrinsics.fy, 301);
-  EXPECT_EQ(half.intrinsics.cx, 159.5);  // the centre stays the centre
+  EXPECT_EQ(half.intrinsics.cx, 159.5);  // the centre of the image stays in place
   EXPECT_EQ(half.intrinsics.cy, 119.75);
   EXPECT_TRUE(fails_with(ErrorKind::usage, [&] { camera.scaled_to(640, 360); }));
   const Camera any{{1, 2, 3, 4}};
@@ -250,7 +250,7 @@ TEST(Camera, PresetsHaveTheFieldsOfViewThatArePublished) {
     const Intrinsics& k = camera.intrinsics;
     EXPECT_FALSE(images.empty()) << name;
     // For Kinect v1 and Xtion, the focal length is the 525 pixels of the colour camera, because
-    // depth is registered to this camera.
+    // their depth images are registered to this camera.
     const bool realsense = name.starts_with("realsense"), second = name == "kinect-v2";
     EXPECT_NEAR(degrees(camera.width, k.fx), realsense ? 69.4 : second ? 70.6 : 62.7, 0.7) << name;
     EXPECT_NEAR(degrees(camera.height, k.fy), realsense ? 42.5 : second ? 60 : 49.1, 0.3) << name;

@@ -8,8 +8,8 @@
 
 namespace ph::test {
 
-/// An organised cloud with fields of every type, fields of several numbers, holes and extreme
-/// numbers.
+/// An organised cloud with fields of every type, fields with several numbers per point, holes and
+/// extreme numbers.
 inline Cloud motley(Index width, Index height, bool wide_integers = true) {
   Cloud cloud;
   cloud.width = width;

@@ -237,7 +237,7 @@ TEST(ReadXyz, NamesColumns) {
   const Cloud named = xyz("label,Z,Y,X\n7,3,2,1\n");
   EXPECT_EQ(points_of(named), (Points{{1, 2, 3}}));
   EXPECT_EQ(points_of(xyz("//X Y Z R G B\n1 2 3 0 0 0\n")), (Points{{1, 2, 3}}));
-  // A column that has a name but no values does not take the place of another.
+  // A column with a name but without values still counts as a column.
   EXPECT_TRUE(contains(
       bad_data([&] { xyz("i,x,y,z,note\n9,1,2,3,\n8,4,5,6,\n"); }),
       "c.xyz:2:1: ragged row, found 4 cells, expected 5, the number of names in the header"));
@@ -353,8 +353,8 @@ TEST(ReadDepth, RefusesMoreThanOneChannel) {
 
 TEST(CloudFromDepth, CountsWhatCannotBe) {
   const Image depth{{1, 3}, {-1.0, 1.0, 1.0}};
-  // The pixels are at -1, 0 and 1 focal lengths from the centre. The lens has no rays beyond 0.7
-  // focal lengths.
+  // In units of the focal length, the pixels are at -1, 0 and 1 from the centre. Beyond 0.7, the
+  // lens has no rays.
   const Camera camera{{1, 1, 1, 0}, 3, 1, {Lens::Model::polynomial, {-0.3}}};
   DepthCounts counts;
   const std::vector<float> xyz = cloud_from_depth(depth, {}, camera, 1, &counts).xyz();

@@ -77,8 +77,8 @@ TEST(Ply, ReadsBothByteOrdersListsAndFaces) {
       [&](std::size_t length) { return length + 2 > ascii.size(); });
 }
 
-// As many property names as fit into a file of some megabytes: comparing each name with all others
-// would take 10^10 comparisons.
+// The file has as many property names as fit into a few megabytes. Comparing each name with all
+// others would take 10^10 comparisons.
 TEST(Ply, ManyPropertiesTakeLinearTime) {
   constexpr int kMany = 100000;
   std::string text = "ply\nformat ascii 1.0\nelement vertex 1\n", row;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Images that exceed the memory limit stay in their file, or in a temporary file, and have the same
-// numbers as in memory.
+// An image that exceeds the memory limit stays in its file or is stored in a temporary file. Its
+// numbers are the same as in memory.
 #include <fmt/format.h>
 
 #include <array>
@@ -43,7 +43,7 @@ std::string npy(const std::string& type, const std::vector<T>& values, bool fort
   return bytes.append(raw, values.size() * sizeof(T));
 }
 
-// Reads the image with much memory, and then with little.
+// Reads the image with a high memory limit and with a low one, and compares the results.
 void expect_same_in_file(const std::string& name, const std::string& bytes,
                          ReadOptions options = {}) {
   SCOPED_TRACE(name);
@@ -117,7 +117,7 @@ TEST(ImagesInFiles, ChangeInMemory) {
   EXPECT_EQ(image.values[7], before);
 }
 
-/// Files of some megabytes; every second file has a random fault.
+/// Files of a few megabytes. Half of the files have a random fault.
 class RandomFiles {
  public:
   struct File {
@@ -163,7 +163,7 @@ class RandomFiles {
     result.insert(result.begin() + static_cast<std::ptrdiff_t>(below(result.size() + 1)), left + 1);
     return result;
   }
-  /// Random elements: any bits, or whole numbers that every type can hold.
+  /// Random elements: arbitrary bits, or whole numbers that every type can represent.
   std::string elements(std::size_t count, std::size_t size, bool any_bits) {
     std::string bytes(count * size, '\0');
     const std::size_t step = any_bits ? 1 : size;
@@ -208,7 +208,7 @@ class RandomFiles {
   std::mt19937 random_{3};
 };
 
-// Whatever a file contains, reading with little memory gives the same numbers, or the same message,
+// Whatever a file contains, a reader gives the same numbers or the same message with little memory
 // as with much memory.
 TEST(ImagesInFiles, RandomFilesAndFaults) {
   struct Outcome {
@@ -256,7 +256,7 @@ TEST(ImagesInFiles, RandomFilesAndFaults) {
   EXPECT_LT(refused, 10);
 }
 
-// Points must fit into memory, and an array that is too large is still refused.
+// Points must fit into memory: an array of points that is too large is refused.
 TEST(ImagesInFiles, OtherInputsDoNot) {
   const TempDir dir;
   const std::filesystem::path path = dir.write("c.npy", npy("<f4", numbers<float>()));

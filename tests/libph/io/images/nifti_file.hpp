@@ -9,7 +9,7 @@
 
 namespace ph::test {
 
-/// A NIfTI-1 file, valid or invalid.
+/// A NIfTI-1 file, which may be invalid.
 struct Nifti {
   std::vector<std::int16_t> dim{2, 2, 3};
   std::int16_t datatype = 4, bitpix = 16;

@@ -74,8 +74,8 @@ TEST(ReadDipha, DistanceMatrices) {
 }
 
 TEST(ReadDipha, SparseDistanceMatrices) {
-  // As DIPHA's tool writes it: each pair is listed at both of its points, and a point is joined to
-  // itself at distance 0.
+  // The data have the form that DIPHA's tool writes: each pair is listed at both of its points, and
+  // each point has an entry for itself with distance 0.
   const std::string bytes = dipha(8, {3, 2, 1, 0, 0, 1, 0}, {0, 1.5, 1.5});
   const ReadResult result = any(bytes);
   const auto& sparse = std::get<SparseDistances>(result.data);
@@ -144,7 +144,7 @@ TEST(ReadDipha, ReadsWhatNpyReads) {
     const Image image = read_image(entry.path());
     std::vector<std::int64_t> numbers{static_cast<std::int64_t>(image.values.size()), image.dim()};
     numbers.insert(numbers.end(), image.extents.rbegin(), image.extents.rend());
-    // With the axes reversed, C order has x fastest.
+    // If the axes are reversed, x varies fastest in C order.
     const Image back = read_image(Input::view(dipha(1, numbers, image.values.doubles()), "a"));
     ASSERT_EQ(back.dim(), image.dim());
     EXPECT_TRUE(std::equal(back.extents.rbegin(), back.extents.rend(), image.extents.begin()));

@@ -30,7 +30,8 @@ TEST(ReadPgm, BinaryAndText) {
       p5, "a.pgm", [](const Input& in) { read_any(in); }, never());
   check_prefixes(
       p2, "a.pgm", [](const Input& in) { read_any(in); },
-      // Text without its last digits may be a valid file, because 2 is a grey value as well as 25.
+      // A text without its last digits may be a valid file, because 2 is a grey value just as 25
+      // is.
       [&](std::size_t length) { return length + 3 >= p2.size(); });
 }
 

@@ -74,7 +74,7 @@ TEST(ReadNifti, ScalingKeepsToTheBudget) {
       }
     }
   };
-  // Memory for the stored numbers and the result. Doubles are scaled in place.
+  // Memory is needed for the stored numbers and for the result. Doubles are scaled in place.
   check(2, std::uint8_t{}, voxels * (1 + 8));
   check(4, std::int16_t{}, voxels * (2 + 8));
   check(16, float{}, voxels * (4 + 8));

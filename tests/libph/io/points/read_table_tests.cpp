@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Tables with names, indexes and chosen columns, and tables without any hint of what they contain.
+// Tables with names, with indexes and with chosen columns, and tables that give no hint about their
+// contents.
 #include <algorithm>
 #include <limits>
 
@@ -47,8 +48,8 @@ TEST(ReadTable, ChoosesColumns) {
   const auto points = [&](std::vector<std::string> columns) {
     return std::get<Points>(any(text, {.columns = std::move(columns)}).data);
   };
-  // A line with a number is a header if it contains a requested name. The request "2" is refused,
-  // because it may mean a name or a position.
+  // A line that contains a number is still a header if it contains a requested name. The request
+  // "2" is refused, because 2 may be a name or a position.
   EXPECT_EQ(points({"x"}), (Points{{1}, {4}}));
   EXPECT_TRUE(fails_with(ErrorKind::usage, [&] { points({"x", "2"}); }));
   EXPECT_TRUE(fails_with(ErrorKind::usage, [&] { points({"z"}); }));
@@ -86,7 +87,7 @@ TEST(ReadTable, AnEmptyFirstCellIsAMissingValueIfNumbersFollow) {
       contains(bad_data([&] { any(text, {.array = ArrayMeaning::points}); }), "1:1: empty cell"));
   const ReadResult kept = any(text, {.nan = NanPolicy::drop, .array = ArrayMeaning::points});
   EXPECT_EQ(std::get<Points>(kept.data), (Points{{0.5, 0.25}, {1, 2}}));
-  // A line of column numbers, or a line above rows that begin with names, is a header.
+  // A line is a header if it numbers the columns, or if the rows below it begin with names.
   EXPECT_EQ(std::get<Points>(any(",1,2\n1,1.5,2\n2,3.5,4\n").data), (Points{{1.5, 2}, {3.5, 4}}));
   const ReadResult labelled =
       any("\"\",\"34\",\"7\"\n\"34\",0,2.5\n\"7\",2.5,0\n", {.array = ArrayMeaning::distances});
@@ -117,7 +118,7 @@ TEST(ReadTable, ATabSeparatesTwoCells) {
             (Points{{1, 2}, {3, 4}}));
   EXPECT_EQ(std::get<Points>(any("1\t2\t\t# c\n\t# c\n3\t4\n").data), (Points{{1, 2}, {3, 4}}));
   EXPECT_TRUE(contains(bad_data([&] { any("1\t\t2\n3\t\t4\n"); }), "write one tab between cells"));
-  // In a table separated by blanks, a tab is one of the blanks.
+  // In a table whose separators are blanks, a tab counts as a blank.
   EXPECT_EQ(std::get<Points>(any("x y\t\n1 2\t\n3 4\t\n").data), (Points{{1, 2}, {3, 4}}));
   EXPECT_EQ(std::get<Points>(any("x\t\ty\n1 2\n3 4\n").data), (Points{{1, 2}, {3, 4}}));
   EXPECT_EQ(std::get<Points>(any("1 2\t3\n4\t\t5 6\n\t7 8 9\n").data),
@@ -138,7 +139,7 @@ TEST(ReadTable, LeavesAnIndexOfLevelsOut) {
   const ReadResult result = any(",,x,y\n0,1,5.5,6\n0,2,7,8\n");
   EXPECT_EQ(std::get<Points>(result.data), (Points{{5.5, 6}, {7, 8}}));
   EXPECT_TRUE(says(result, "the first 2 columns have no name"));
-  // R writes the names of rows in quotes, and no name for their column.
+  // R writes the names of rows in quotes, without a name for the column of these names.
   EXPECT_EQ(std::get<Points>(any("\"x\" \"y\"\n\"7\" 2 3\n\"9\" 4 5\n").data),
             (Points{{2, 3}, {4, 5}}));
   EXPECT_EQ(std::get<Points>(any("id,a,b\n1.0,5,6\n2.0,7,9\n").data), (Points{{5, 6}, {7, 9}}));
@@ -224,15 +225,15 @@ TEST(ReadTable, MatricesAreKnownByTheirDiagonal) {
                        "from_correlation"));
 }
 
-// Differences count as rounding if they are small compared to the largest entry of the matrix, even
-// if the entries that differ are small themselves.
+// A matrix that is nearly symmetric is accepted. The differences only need to be small compared to
+// the largest entry of the matrix, even if the entries that differ are small themselves.
 TEST(ReadTable, RoundingIsRelativeToTheLargestEntry) {
   const char* correlations = "1,1e-17,0.5\n-2e-17,1,0.25\n0.5,0.25,1\n";
   EXPECT_TRUE(contains(bad_data([&] { any(correlations); }), "from_correlation"));
   EXPECT_EQ(std::get<DistanceMatrix>(any(correlations, {.from_correlation = true}).data)(0, 2),
             0.5);
-  // Correlations near 1: the two corresponding distances are small, and their relative difference
-  // is more than 1e-6.
+  // Two corresponding correlations are near 1. Their distances are small, and differ by more than a
+  // factor of 1 + 1e-6.
   const char* near = "1,0.999999,0.5\n0.9999991,1,0.5\n0.5,0.5,1\n";
   EXPECT_NO_THROW(any(near, {.from_correlation = true}));
 
@@ -273,7 +274,8 @@ TEST(ReadTable, ColumnsAndRowsMayHaveNumbers) {
   is_matrix("1 0 1 2\n2 1 0 3\n3 2 3 0\n", "first column holds the row numbers");
   EXPECT_TRUE(
       contains(bad_data([] { any("0,1,2\n1,.5,.2\n.5,1,.3\n.2,.3,1\n"); }), "from_correlation"));
-  // For images and points, nothing is left out, but there is a note.
+  // In images and points, nothing is removed, but there is a note about rows or columns that seem
+  // to count.
   const ReadResult slope = read_any(Input::view("0 1 2 3\n1 2 3 4\n2 3 4 5\n", "s"), Format::grid);
   EXPECT_EQ(std::get<Image>(slope.data).extents, (std::vector<Index>{3, 4}));
   EXPECT_EQ(std::get<Points>(
@@ -379,7 +381,7 @@ TEST(ReadTable, ArraysAreKnownByShapeAndDiagonal) {
   EXPECT_EQ(kind("(7, 2)", std::vector<double>(14, 1.5)), 3U);
   EXPECT_EQ(kind("(68, 17)", std::vector<double>(68 * 17, 1.5)), 3U);
   EXPECT_EQ(kind("(3, 3)", {0, 1, 2, 1, 0, 3, 2, 3, 0}), 1U);
-  // Damaged distances are not silently read as a picture. Zeros are not a sign of damage.
+  // Damaged distances must not silently be read as a picture. Zeros do not count as damage.
   for (const std::vector<double>& damaged :
        {std::vector<double>{0, 1, 2, 1, 0, 3, 2, 4, 0}, {0, .5, -.5, .5, 0, .25, -.5, .25, 0}})
     bad_data([&] { kind("(3, 3)", damaged); });
