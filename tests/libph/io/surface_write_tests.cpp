@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Surfaces that a user fills in are checked before they are written.
+// Surfaces that a user fills in are checked before they are written to a file.
 #include <gtest/gtest.h>
 
 #include <filesystem>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Closed walks into which cycles of edges are split: checks that the walks of a chain, or of the
-// representative of a bar, add up to the chain.
+// Cycles of edges are split into closed walks. The tests check that the walks add up to the given
+// chain, or to the representative of a bar.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -29,7 +29,7 @@ TEST(ClosedWalks, OfAnEight) {
 }
 
 TEST(ClosedWalks, WithCoefficients) {
-  // Three paths from 0 to 9, each with coefficient 1: their sum is a cycle modulo 3.
+  // Three paths from 0 to 9, each with coefficient 1. Modulo 3, their sum is a cycle.
   const std::vector<Index> edges{0, 1, 1, 9, 0, 2, 2, 9, 0, 3, 3, 9};
   const std::vector<std::int64_t> ones(6, 1);
   const InputChain chain = chain_of(edges, ones);
@@ -92,8 +92,8 @@ TEST(ClosedWalks, RefuseWhatIsNoCycleOfEdges) {
   EXPECT_TRUE(closed_walks(chain_of({}, {}), 2).empty());
 }
 
-/// The loops of an image as a chain of edges. Each edge is named by the doubled coordinates of its
-/// middle.
+/// The sum of the loops of an image, as a chain of edges. Each edge is named by the doubled
+/// coordinates of its midpoint.
 std::map<std::vector<Index>, std::int64_t> grid_sum(const std::vector<Loop>& loops,
                                                     const std::vector<Index>& periods,
                                                     std::int64_t p) {
@@ -159,8 +159,8 @@ TEST(ClosedWalks, OfImages) {
   EXPECT_TRUE(is_enough(count, 1000)) << count;
 }
 
-// On a short periodic axis, two vertices may have several edges between them, but each step must
-// exist.
+// On a short periodic axis, two vertices may be joined by several edges. Each step of a walk must
+// be one of the edges.
 TEST(ClosedWalks, OfShortPeriodicAxes) {
   for (const Index n : {1, 2}) {
     const Image image{{n, 3}, Voxels(std::vector<double>(static_cast<std::size_t>(3 * n), 1.0))};
@@ -193,7 +193,7 @@ TEST(ClosedWalks, OfSimplicialComplexes) {
   EXPECT_TRUE(is_enough(count, 50)) << count;
 }
 
-// Rows of a boundary matrix have no vertices, and thus no walks.
+// The cells of a boundary matrix have no vertices, so there are no walks.
 TEST(ClosedWalks, OfABoundaryMatrixThereAreNone) {
   BoundaryMatrix matrix;
   for (const int dim : {0, 0, 0, 1, 1, 1}) matrix.dims.push_back(dim);

@@ -14,7 +14,7 @@
 
 namespace ph::test {
 
-/// The non-zero coefficients of edges, by the endpoints of each edge.
+/// The non-zero coefficients of edges. Each edge is identified by its two endpoints.
 using EdgeChain = std::map<std::pair<std::vector<Index>, std::vector<Index>>, std::int64_t>;
 
 inline std::int64_t modulo(std::int64_t a, std::int64_t p) { return (a % p + p) % p; }
@@ -40,8 +40,8 @@ inline std::vector<std::vector<Index>> vertices_of(const Loop& loop, std::size_t
   return vertices;
 }
 
-/// The loops of a simplicial complex as a chain of edges, each directed from the smaller to the
-/// larger vertex.
+/// The sum of loops of a simplicial complex, as a chain of edges. Each edge is directed from the
+/// smaller to the larger vertex.
 inline EdgeChain sum_of(const std::vector<Loop>& loops, std::int64_t p) {
   EdgeChain chain;
   for (const Loop& loop : loops) {

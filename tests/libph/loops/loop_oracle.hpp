@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Loops by their definition: boundaries and cocycles are found by elimination on dense rows, and
-// shortest walks by Dijkstra's algorithm on pairs of a vertex and the values of cocycles.
+// Computes loops by their definition. Boundaries and cocycles are found by elimination on dense
+// rows. Shortest walks are found by Dijkstra's algorithm, whose nodes are pairs of a vertex and the
+// values of the cocycles.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -94,8 +95,8 @@ inline bool is_in_span(std::vector<EdgeRow> rows, const EdgeRow& row, std::int64
   return eliminate(rows, p).size() == rank;
 }
 
-/// A basis of the cocycles on the edges that satisfy `in`: the functions that vanish on the
-/// boundaries of all triangles of these edges.
+/// A basis of the cocycles on the edges that satisfy `in`. A cocycle vanishes on the boundary of
+/// every triangle of these edges.
 template <class In>
 std::vector<EdgeRow> cocycles_of(const FlagComplex& complex, In&& in) {
   std::vector<EdgeRow> rows = complex.boundaries(in);
@@ -112,10 +113,10 @@ std::vector<EdgeRow> cocycles_of(const FlagComplex& complex, In&& in) {
   return cocycles;
 }
 
-/// The length of the shortest closed walk with these properties: it passes edge `birth` once, its
-/// other edges satisfy `may_use`, and, multiplied by the coefficient of `birth` in `chain`, it
-/// agrees with `chain` on all `cocycles`. Nothing if there is no such walk, or if too many cases
-/// would have to be examined.
+/// The length of the shortest closed walk with the following properties. The walk passes edge
+/// `birth` once, and its other edges satisfy `may_use`. Each cocycle has the same value on `chain`
+/// as on the walk times the coefficient of `birth` in `chain`. Nothing if there is no such walk, or
+/// if too many states would have to be examined.
 inline std::optional<double> shortest_walk(const FlagComplex& complex, const EdgeRow& chain,
                                            std::size_t birth, const std::vector<bool>& may_use,
                                            const std::vector<EdgeRow>& cocycles, bool& gave_up) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Compares loops of bars of Rips filtrations with a separate oracle.
+// Compares the loops of bars of Rips filtrations with an independent oracle.
 #include "ph/detail/rips/rips_graph.hpp"
 #include "ph/loops.hpp"
 
@@ -79,7 +79,7 @@ void check_loops(const Rips& rips, const Options& asked, Counts& counts) {
     }
     check_form(tight[i].loops, 1, p);
     for (const Loop& loop : tight[i].loops) {
-      // No vertex of the loop can be left out.
+      // Checks that no vertex of the loop can be left out.
       const auto& v = loop.numbers;
       for (std::size_t k = 0; k < v.size() && v.size() > 3; ++k) {
         const auto first = complex.place(v[k], v[(k + 1) % v.size()]),
@@ -223,7 +223,7 @@ TEST(Loops, OfSparseRipsFiltrations) {
   EXPECT_TRUE(is_enough(counts.bars, 20)) << counts.bars;
 }
 
-// Two rings joined by a tube: only the difference of two walks represents one of the bars.
+// Two rings joined by a tube. One of the bars is represented only by the difference of two walks.
 TEST(Loops, MayNeedTwoWalks) {
   Points points(16, 3);
   for (Index i = 0; i < 8; ++i) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Components of cloud parts: the division into blocks, and forests that are joined.
+// Components of cloud parts: the division of a cloud into blocks, and the joining of forests.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 namespace ph::test {
 namespace {
 
-// A point with tied coordinates also belongs to exactly one side of a split.
+// Each point belongs to exactly one side of a split, even if its coordinate is tied.
 TEST(SampleTree, PointsOfTheSampleLieInTheirCells) {
   for_each_seed(300, [](Generator& random, bool ties, std::int64_t) {
     const Points points = random.points(random.integer(1, 100), random.integer(1, 4), ties);
@@ -29,14 +29,14 @@ TEST(SampleTree, PointsOfTheSampleLieInTheirCells) {
       const auto of_block = tree.cells(tree.node_of_block(tree.blocks(node).begin));
       EXPECT_TRUE(of_block.begin <= cell && cell < of_block.end);
     }
-    // The sizes of blocks differ by little.
+    // Blocks differ little in size.
     std::uint32_t least = UINT32_MAX, most = 0;
     for (std::uint32_t b = 0; b < blocks; ++b) {
       const auto size = tree.cells(tree.node_of_block(b)).size();
       least = std::min(least, size);
       most = std::max(most, size);
     }
-    EXPECT_LE(most, least + 4);  // each split may leave one more point on a side
+    EXPECT_LE(most, least + 4);  // each split may put one more point on one side
   });
 }
 
@@ -47,7 +47,7 @@ TEST(NumberedForest, KeepsClaimsThatAreOpen) {
   forest.edges = {{2, 1, 0}};
   forest.claims = {{1, 1, 0}, {2, 1, 0}, {4, 2, 0}};
   forest.reduce(context);
-  ASSERT_EQ(forest.claims.size(), 2U);  // at 1, an edge of length 2 joins nothing
+  ASSERT_EQ(forest.claims.size(), 2U);  // up to the value 1, the edge of length 2 joins nothing
   EXPECT_EQ(forest.claims[0].value, 1);
   EXPECT_EQ(forest.claims[1].value, 4);
   other.numbers = {5, 7, 9};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Spanning forests, which give H0 without the graph of all edges: compares them with the oracle on
-// the whole filtration.
+// Spanning forests give H0 without the graph of all edges. The tests compare them with the oracle
+// on the whole filtration.
 #include <limits>
 
 #include "ph/eigen.hpp"
@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kInf = kInfinity;
 
-/// The pairs that are computed from a form, including pairs of length 0.
+/// The pairs computed from one form of the filtration, including pairs of length 0.
 std::vector<Pair> components_of(const Rips& rips, RipsForm form, Engine engine,
                                 const RunContext& context = default_context()) {
   return with_rips_filtration(rips.graph(form, context), 0,
@@ -97,15 +97,15 @@ TEST(Components, OfSparseDistances) {
   });
 }
 
-// A user's own distance takes indices, and therefore works for any points.
+// A distance defined by the user takes indices, so it works for any points.
 struct AnyDistance {
   const PointMetric& metric;
   Index size() const { return metric.size(); }
   double operator()(Index i, Index j) const { return metric(i, j); }
 };
 
-// Clusters of clusters, a grid full of ties, a line, and scattered points: enough points to use all
-// parts of the search.
+// Clusters of clusters, a grid with many ties, a line, and scattered points. There are enough
+// points to run all parts of the search.
 TEST(Components, OfManyPointsAreThoseOfAllPairs) {
   for_each_seed(48, [](Generator& random, bool, std::int64_t) {
     const Index n = random.integer(200, 2500), d = random.integer(1, 5);
@@ -133,7 +133,7 @@ TEST(Components, OfManyPointsAreThoseOfAllPairs) {
   });
 }
 
-// From a given forest, no other form can be made.
+// If the input is a forest, no other form can be made from it.
 TEST(Components, NothingElseIsThere) {
   const Points points = to_points(PointMatrix::Random(9, 2));
   const Rips rips(RipsGraph::forest_of_metric(PointMetric(points), {}, default_context()));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Requests that a device cannot fulfil are refused. gpu/gpu_forest_tests.cpp tests the requests
-// that it can fulfil.
+// Requests that a device cannot fulfil are refused. The other requests are tested in
+// gpu/gpu_forest_tests.cpp.
 #include "ph/persistence.hpp"
 #include "tests/support/expect_error.hpp"
 

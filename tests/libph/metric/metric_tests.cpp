@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Compares distances with values computed by hand, even at the limits of the range of doubles, and
-// near pairs with all pairs.
+// Compares distances with values computed by hand, even at the limits of the range of doubles.
+// Compares searches for near pairs with lists of all pairs.
 #include <limits>
 #include <numeric>
 
@@ -170,7 +170,7 @@ TEST(SparseDistanceSets, NearPairsAreThoseOfAllPairs) {
     const double units[] = {1, 1, 1e-3, 1e100, 1e200, 1e307, 1e-200, 1e-310};
     scale(points.coordinates(), units[random.integer(0, 7)]);
     double radius = 0;
-    // A radius that equals a distance to the last bit includes the pair.
+    // If the radius equals a distance to the last bit, the pair is included.
     if (n >= 2 && random.integer(0, 3) != 0)
       radius = PointMetric(points)(random.integer(0, static_cast<int>(n) - 1), 0);
     EXPECT_EQ(SparseDistances::within(points, radius).edges(), all_pairs_within(points, radius))
@@ -181,8 +181,8 @@ TEST(SparseDistanceSets, NearPairsAreThoseOfAllPairs) {
   }
 }
 
-// Tests the tree directly, because for_each_pair_within uses it only for more points than this test
-// has.
+// Tests the tree directly, because for_each_pair_within uses the tree only for larger numbers of
+// points.
 TEST(NearPairsOfATree, AreThoseOfAllPairs) {
   constexpr PointDistance distances[] = {PointDistance::euclidean, PointDistance::manhattan,
                                          PointDistance::chebyshev, PointDistance::minkowski};
@@ -192,7 +192,7 @@ TEST(NearPairsOfATree, AreThoseOfAllPairs) {
     const double units[] = {1, 1, 1e-3, 1e100, 1e200, 1e307, 1e-200, 1e-310};
     scale(points.coordinates(), units[random.integer(0, 7)]);
     const PointDistance distance = distances[random.integer(0, 3)];
-    // With one point of ordinary size, the powers of tiny distances are 0 in comparison.
+    // Compared with the coordinate of one ordinary point, the powers of tiny distances are 0.
     if (distance != PointDistance::minkowski && random.coin()) points(0, 0) = 1;
     const double p = 1 + 3 * random.real();
     const PointMetric given(points, distance, p);
@@ -256,7 +256,7 @@ TEST(SparseDistanceSets, RadiiAtTheEnds) {
   expect_error(ErrorKind::usage, "radius", [&] { SparseDistances::within(points, kNan); });
 }
 
-// All pairs would be 5 * 10^9 distances.
+// A list of all pairs would have 5 * 10^9 distances.
 TEST(SparseDistanceSets, ManyPointsAndFewPairsTakeNearLinearTime) {
   for (const Index d : {2, 4}) {
     Points line = to_points(PointMatrix::Constant(100000, d, 7));
@@ -281,8 +281,8 @@ TEST(SparseDistanceSets, TheSearchStopsOnRequest) {
   }
 }
 
-// Rows of distances equal single distances bit for bit, because the method of computation must not
-// decide ties.
+// A distance in a row equals the single distance bit for bit. Otherwise the method of computation
+// would decide ties.
 TEST(RowDistancesOf, APointMetricAreItsDistances) {
   for_each_seed(300, [](Generator& random, bool ties, std::int64_t) {
     const Index n = random.integer(0, 70);

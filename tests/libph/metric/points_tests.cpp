@@ -63,7 +63,8 @@ TEST(PointsOwner, TakesNumbersOfAnyType) {
   EXPECT_EQ(Points::of(floats.data(), 2, 1, 1, 1), (Points{{double{0.1F}}, {-1}}));
 }
 
-/// Reads the same points in several layouts. Each must give the same result as contiguous rows.
+/// Reads the same points in several layouts. Each layout must give the same result as contiguous
+/// rows.
 void expect_same_from(PointsView view, const Points& points, std::int64_t field) {
   ASSERT_EQ(Points(view), points);
   for (const PointDistance distance : {PointDistance::euclidean, PointDistance::manhattan}) {
@@ -93,8 +94,8 @@ TEST(PointsViews, AreTheSamePointsInAnyLayout) {
     const Index n = points.rows(), d = points.cols();
     const Eigen::MatrixXd by_columns = as_matrix(points);
     expect_same_from(by_columns, points, field);
-    // Views of every second row and of the columns 1 to d of a matrix, in row-major and
-    // column-major order.
+    // Views of every second row and of the columns 1 to d of a matrix. The matrix is stored in
+    // row-major or in column-major order.
     PointMatrix wide = PointMatrix::Constant(2 * n + 1, d + 2, 77);
     Eigen::MatrixXd wide_by_columns = wide;
     for (Index i = 0; i < n; ++i) {
@@ -136,7 +137,7 @@ TEST(DelayEmbedding, HasTheValuesOfLaterTimes) {
                    [&] { static_cast<void>(delay_embedding(series, dimension, delay)); });
       return;
     }
-    // The coordinates stored column by column.
+    // The coordinates are stored column by column.
     std::vector<double> by_columns;
     for (Index k = 0; k < series.cols(); ++k)
       for (Index t = 0; t < series.rows(); ++t) by_columns.push_back(series(t, k));

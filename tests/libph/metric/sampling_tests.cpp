@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Tests what greedy permutations, distances to a measure, and sparse Rips filtrations promise.
+// Tests the promises of greedy permutations, distances to a measure, and sparse Rips filtrations.
 #include <limits>
 #include <numeric>
 
@@ -46,7 +46,7 @@ DistanceMatrix matrix_of(const PointMetric& metric) {
   return DistanceMatrix(metric.size(), lower);
 }
 
-/// The greedy permutation by its definition, from all distances.
+/// The greedy permutation, computed by its definition from all distances.
 template <Metric M>
 GreedyPermutation greedy_by_definition(const M& metric, const GreedyLimits& limits) {
   GreedyPermutation result;
@@ -93,7 +93,7 @@ TEST(GreedyPermutations, AreWhatTheyAreByDefinition) {
   });
 }
 
-// There are several full blocks of points, and an incomplete block.
+// There are several full blocks of points and one incomplete block.
 TEST(GreedyPermutations, OfManyPoints) {
   Generator random(3);
   for (const Index n : {511, 512, 513, 2000}) {
@@ -175,9 +175,9 @@ TEST(SparseRipsFiltrations, KeepWhatTheyPromise) {
   EXPECT_TRUE(is_enough(fewer, std::size_t{5000})) << fewer;  // the test covers enough cases
 }
 
-// Computes the edges by the definition. The balls of two points stop growing at their largest
-// diameters. The value of an edge is the value at which its two balls meet. There is no edge if the
-// balls meet too late.
+// Computes the edges by the definition. The balls of two points grow up to a largest diameter each.
+// The value of an edge is the value at which its two balls meet. If the balls would meet too late,
+// there is no edge.
 TEST(SparseRipsFiltrations, HaveTheEdgesThatTheySay) {
   std::size_t missing = 0, late = 0;
   for_each_seed(500, [&](Generator& random, bool ties, std::int64_t) {
@@ -216,7 +216,7 @@ TEST(SparseRipsFiltrations, HaveTheEdgesThatTheySay) {
   EXPECT_TRUE(is_enough(late, std::size_t{1000})) << late;
 }
 
-// Points on many scales, for which edges are left out.
+// The points lie on many scales, so edges are left out.
 TEST(SparseRipsFiltrations, KeepWhatTheyPromiseOnManyScales) {
   for_each_seed(150, [](Generator& random, bool, std::int64_t field) {
     Points points = random.points(random.integer(20, 50), 2, false);
@@ -304,7 +304,7 @@ TEST(DistanceToMeasure, OfLargeAndSmallPointsAndBadNumbers) {
   EXPECT_EQ(distance_to_measure(DistanceMatrix(2, {kInf}), 2)[0], kInf);
 }
 
-// An outlier between two dense groups: without weights, it is a component of its own.
+// An outlier lies between two dense groups. Without weights, it would be a separate component.
 TEST(DistanceToMeasure, OutliersComeLate) {
   Points points(41, 2);
   for (Index i = 0; i < 40; ++i)
@@ -314,7 +314,7 @@ TEST(DistanceToMeasure, OutliersComeLate) {
   for (double& b : births) b *= 2;
   const Barcode bars = persistence(
       Rips(points, {.births = births, .weight_exponent = WeightExponent::one}), {.max_dim = 0});
-  // The outlier joins a component at its birth or soon after. The two groups live long.
+  // The outlier joins a component at its birth or soon after. Only the two groups have long bars.
   std::size_t long_bars = 0;
   for (const Bar& bar : bars) long_bars += bar.persistence() > 1 ? 1 : 0;
   EXPECT_EQ(long_bars, 2U);

@@ -21,7 +21,8 @@ inline Barcode barcode_of(const std::vector<Bar>& bars) {
   return barcode;
 }
 
-/// Barcodes that are hard to draw: empty, infinite, with a single value, spanning all doubles.
+/// Barcodes that are hard to draw: empty, with infinite bars, with a single value, or spanning the
+/// range of doubles.
 inline std::vector<std::vector<Bar>> odd_barcodes() {
   const double tiny = std::numeric_limits<double>::denorm_min();
   const double huge = std::numeric_limits<double>::max();

@@ -109,7 +109,7 @@ TEST(Plot, ALogarithmicAxisHasAsMuchRoomForEachPowerOfTen) {
   const std::string svg =
       svg_plot(test::barcode_of({{0, 0, 1}, {0, 1, 100}, {0, 10, 100}}), options);
   for (const char* tick : {"1", "10", "100"}) EXPECT_TRUE(has_text(svg, tick)) << tick;
-  // The second line begins at 1, the third line at half of the axis.
+  // The second line begins at 1. The third line begins halfway along the axis.
   std::smatch lines;
   ASSERT_TRUE(std::regex_search(
       svg, lines,
@@ -181,8 +181,8 @@ TEST(Plot, ALogarithmicAxisOfNegatedValuesFalls) {
   for (const std::string& text : texts_of(svg))
     if (text == "1" || text == "10" || text == "100") ticks.push_back(text);
   EXPECT_EQ(ticks.size(), 3U);
-  // The first line is as long as the axis, and the others begin half way along it. No tick belongs
-  // to the value 5 itself.
+  // The first line is as long as the axis, and the other lines begin halfway along it. The value 5
+  // itself has no tick.
   std::smatch lines;
   ASSERT_TRUE(std::regex_search(svg, lines,
                                 std::regex("<path d=\"M([0-9.]+) [0-9.]+H([0-9.]+)M([0-9.]+) "
@@ -290,7 +290,7 @@ TEST(TreePlot, ManyClassesStaySmall) {
   for (const bool ties : {false, true}) {
     std::vector<Branch> tree{{0, kInfinity, -1}};
     for (Index i = 1; i < 100'000; ++i) {
-      // The branch joins an older one that lives longer.
+      // The branch joins a branch that is older and lives longer.
       const Index elder = static_cast<Index>(random()) % i;
       const double death = std::min(1.0, tree[static_cast<std::size_t>(elder)].death);
       tree.push_back({0, ties ? 1 : death * number(random), elder});
@@ -302,7 +302,8 @@ TEST(TreePlot, ManyClassesStaySmall) {
   }
 }
 
-/// The numbers of each line in path data. The commands 'M' and 'V', or 'M' and 'H', draw a line.
+/// The numbers of each line in path data. A line is drawn by the command 'M', followed by 'V' or
+/// 'H'.
 std::vector<std::array<double, 3>> lines_of(const std::string& svg, char end) {
   const std::regex line(std::string("M([0-9.]+) ([0-9.]+)") + end + "([0-9.]+)");
   std::vector<std::array<double, 3>> lines;
@@ -312,8 +313,8 @@ std::vector<std::array<double, 3>> lines_of(const std::string& svg, char end) {
 }
 
 TEST(TreePlot, LinesMeetAndDoNotCross) {
-  // Branch 0 never dies. Branch 1 joins it, 2 and 3 join 1, and 4 is the last to join 0. Branch 5
-  // is separate.
+  // Branch 0 never dies. Branch 1 joins it, 2 and 3 join 1, and 4 is the last branch that joins 0.
+  // Branch 5 joins none of them.
   const std::vector<Branch> tree{{0, kInfinity, -1}, {0, 7, 0}, {1, 3, 1},
                                  {2, 5, 1},          {3, 9, 0}, {4, kInfinity, -1}};
   const std::string svg = svg_plot(tree);

@@ -78,11 +78,11 @@ TEST_F(PngPlot, AnyValues) {
     }
 }
 
-/// A bar of half the length takes half as many pixels, and begins at its birth.
+/// A bar of half the length is half as many pixels long, and begins at its birth.
 TEST_F(PngPlot, BarsAreAsLongAsTheyLive) {
   const Raster whole = decoded(png_plot(test::barcode_of({{1, 0, 8}})));
   const Raster half = decoded(png_plot(test::barcode_of({{0, 0, 8}, {1, 4, 8}})));
-  // The letter H, to the left of x = 125, has the same colour.
+  // Removes the letter H, which has the same colour as the bars and lies to their left.
   const auto bar = [](const Raster& raster) {
     Raster right = raster;
     for (Index y = 0; y < raster.height; ++y)
@@ -112,7 +112,7 @@ TEST_F(PngPlot, TextIsDrawn) {
   EXPECT_GT(pixels_of(narrow, ink), axis + 20);
   EXPECT_GT(pixels_of(wide, ink), pixels_of(narrow, ink) + 100);
   EXPECT_EQ(drawn("\xff\x01").samples, drawn("\xef\xbf\xbd\xef\xbf\xbd").samples) << "no UTF-8";
-  // The letter O has a hole: its middle is white between two sides of ink.
+  // The letter O has a hole: its middle is white, with ink on both sides.
   const Raster hole = drawn("O");
   bool found = false;
   for (Index y = 20; y < 46; ++y)
@@ -196,7 +196,7 @@ TEST(ColouredPlot, SvgHoldsThePixelsAndTheLegendAsText) {
 TEST_F(PngPlot, PixelsOfAPictureAreKept) {
   ColouredPicture picture = red_and_blue();
   const Raster raster = decoded(png_plot(picture));
-  // Pixels in the middle of the picture, and in the two squares of the legend.
+  // Some pixels are in the middle of the picture, the others in the two squares of the legend.
   for (const auto& [x, colour] : {std::pair(500, Colour{200, 0, 0}),
                                   {519, Colour{200, 0, 0}},
                                   {520, Colour{0, 0, 200}},

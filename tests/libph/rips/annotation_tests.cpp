@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Tests the data structures in which the sweep of edge links keeps classes of edges.
+// Tests the data structures in which the sweep of edge links stores classes of edges.
 #include <array>
 #include <initializer_list>
 #include <map>
@@ -23,8 +23,8 @@ std::vector<std::uint32_t> numbers_of(const NumberSet& set) {
   return numbers;
 }
 
-// Compares with std::set. Small sets are lists, and large sets are rows of bits. Sets of both kinds
-// are added to each other.
+// Compares with std::set. Small sets are stored as lists, and large sets as rows of bits. Each kind
+// is added to the other.
 TEST(NumberSet, IsASet) {
   for_each_seed(300, [](Generator& random, bool, std::int64_t) {
     std::pmr::memory_resource* memory = std::pmr::get_default_resource();
@@ -57,7 +57,7 @@ TEST(NumberSet, IsASet) {
 
 TEST(ActiveEdges, AreAMap) {
   for_each_seed(100, [](Generator& random, bool, std::int64_t) {
-    const int n = random.integer(2, 90);  // up to 90, for which lists are searched in blocks
+    const int n = random.integer(2, 90);  // with up to 90 vertices, lists are searched in blocks
     ActiveEdges edges(static_cast<std::size_t>(n), random.coin(), std::pmr::get_default_resource());
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> labels;
     std::set<std::pair<std::uint32_t, std::uint32_t>> gone;
@@ -97,7 +97,8 @@ TEST(ActiveEdges, AreAMap) {
   });
 }
 
-// Compares with vectors that are all updated at each death. Some vectors are read between deaths.
+// Compares with simple vectors, all of which are updated at each death. Some vectors are read
+// between deaths.
 template <Field K>
 void check_dead_generators(const K& field, Generator& random) {
   using Vector = typename DeadGenerators<K>::Vector;
@@ -106,7 +107,8 @@ void check_dead_generators(const K& field, Generator& random) {
   std::pmr::memory_resource* memory = std::pmr::get_default_resource();
   DeadGenerators<K> dead(field, memory);
   const auto is_dead = [&](std::size_t g) { return dead.contains(static_cast<std::uint32_t>(g)); };
-  // With few terms, relations are lists. With many terms, relations over Z/2 are rows of bits.
+  // Relations with few terms are stored as lists. Over Z/2, relations with many terms are stored as
+  // rows of bits.
   const int most = random.coin() ? 8 : 100;
   const auto random_vector = [&](bool of_the_living) {
     Coefficients v(count, field.from_int(0));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Edges found from points alone give the same pairs as all edges, cell by cell, even with ties.
+// The edges that are found from points alone give the same pairs as all edges, cell by cell, even
+// with ties.
 #include <cmath>
 #include <numbers>
 
@@ -13,7 +14,7 @@
 namespace ph::test {
 namespace {
 
-/// Points in one of many shapes, and with ties if requested.
+/// Points in one of several shapes, with ties if requested.
 Points shaped_points(Generator& random, Index n, Index d, bool ties) {
   Points p(n, d);
   const int shape = random.integer(0, 6), side = random.integer(1, 6);
@@ -104,7 +105,7 @@ TEST(BetaSkeleton, HundredsOfPoints) {
   });
 }
 
-// Compares with edge links, for enough points that the tree has many levels.
+// Compares with edge links. There are so many points that the tree has many levels.
 TEST(BetaSkeleton, ThousandsOfPoints) {
   for_each_seed(10, [](Generator& random, bool ties, std::int64_t field) {
     const Index n = 5'000, d = random.integer(2, 3);
@@ -122,7 +123,7 @@ TEST(BetaSkeleton, ThousandsOfPoints) {
   });
 }
 
-// One hole lives long, and many holes are born after others have died.
+// One hole lives long, and many holes are born after the death of others.
 TEST(BetaSkeleton, HolesOfManySizes) {
   for_each_seed(60, [](Generator& random, bool, std::int64_t field) {
     const Index d = random.integer(2, 3), n = random.integer(150, 400);
@@ -137,7 +138,7 @@ TEST(BetaSkeleton, HolesOfManySizes) {
   });
 }
 
-// Many edges have nearly the same length. Their bins are therefore split into narrower bins.
+// Many edges have nearly the same length, so their bins are split into narrower bins.
 TEST(BetaSkeleton, RegularPolygons) {
   for (const Index n : {3, 6, 30, 300, 1'500}) {
     SCOPED_TRACE(n);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Cofacets of Rips complexes that are larger than the complexes of the conformance suite, with
-// several blocks of vertices, and with columns whose limit rises many times.
+// Cofacets in Rips complexes that are larger than the complexes of the conformance suite. There are
+// several blocks of vertices, and there are columns whose limit rises many times.
 #include <map>
 #include <set>
 
@@ -80,7 +80,8 @@ TEST(RipsCofacets, AreThoseOfTheRange) {
   }
 }
 
-// Both engines find the same cells; `twist` uses boundaries instead of coboundaries.
+// Both engines must find the same cells. The engine `twist` uses boundaries instead of
+// coboundaries.
 TEST(RipsCofacets, ColumnsWhoseLimitRisesOftenAreReduced) {
   for (const std::int64_t field : {2, 3}) {
     for (const bool ties : {false, true}) {

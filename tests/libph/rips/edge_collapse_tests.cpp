@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Edge collapse: fewer edges, but the same bars, with valid cells and cycles.
+// Edge collapse removes edges, but must keep the bars, with valid cells and cycles.
 #include "ph/detail/rips/edge_collapse.hpp"
 #include "ph/detail/rips/rips_filtration.hpp"
 #include "ph/detail/rips/rips_graph.hpp"
@@ -41,7 +41,7 @@ Rips random_rips(Generator& random, Index most_points, bool ties) {
   }
 }
 
-/// The graph that the engine cohomology uses for H1, which the collapse works on.
+/// The graph that the engine cohomology uses for H1. The collapse starts from this graph.
 const RipsGraph& graph_of(const Rips& rips) {
   return planned_graph(rips, {.max_dim = 1, .engine = Engine::cohomology});
 }
@@ -58,7 +58,7 @@ TEST(EdgeCollapse, LeavesTheBarsAsTheyAre) {
   });
 }
 
-// Enough vertices for several words of bits, with some vertices that are born late.
+// There are enough vertices for several words of bits, and some vertices are born late.
 TEST(EdgeCollapse, LeavesTheBarsOfManyPointsAsTheyAre) {
   for_each_seed(40, [](Generator& random, bool ties, std::int64_t field) {
     const Rips rips = random.coin() ? Rips(random.points(70, random.integer(2, 3), false))
@@ -120,7 +120,8 @@ TEST(EdgeCollapse, MovesEdgesToLaterValuesOfTheGraph) {
   EXPECT_TRUE(is_enough(moved, std::size_t{1000})) << moved;
 }
 
-// One pass is not enough: it leaves dominated edges among the edges that it has already checked.
+// One pass is not enough, because an edge that has already been checked may become dominated later
+// in the pass.
 TEST(EdgeCollapse, GoesOnUntilLittleIsDominated) {
   for_each_seed(6, [](Generator& random, bool, std::int64_t) {
     const Rips rips(random.points(120, 3, false));
@@ -129,7 +130,7 @@ TEST(EdgeCollapse, GoesOnUntilLittleIsDominated) {
   });
 }
 
-/// The diameter of a simplex, in terms of the input.
+/// The diameter of a simplex in the input.
 double diameter(const Rips& rips, const InputCell& cell) {
   const RipsGraph& graph = all_edges(rips);
   double largest = 0;
@@ -155,8 +156,8 @@ TEST(EdgeCollapse, CellsHaveTheValuesOfTheirBar) {
   });
 }
 
-/// A cycle of the collapsed complex must be valid in the full complex: it has no boundary, is born
-/// at the birth, and is a boundary from the death on but not before.
+/// Checks that a cycle of the collapsed complex is valid in the full complex: it has no boundary,
+/// it is born at the birth of the bar, and it becomes a boundary at the death, not earlier.
 template <Filtration F>
 void check_cycle_by_value(const F& f, const OrderedCells<F>& cells, const Barcode& bars,
                           std::size_t i) {
@@ -198,14 +199,13 @@ TEST(EdgeCollapse, CyclesAreThoseOfTheWholeComplex) {
 
 TEST(EdgeCollapse, KeepsWhatItMust) {
   const auto kept = [](const Rips& rips) { return collapse_edges(all_edges(rips)).edge_count(); };
-  // A full simplex collapses to a tree, whatever the lengths of its edges.
+  // A full simplex collapses to a tree, whatever the lengths of the edges are.
   EXPECT_EQ(kept(Rips(DistanceMatrix(9, std::vector<double>(36, 1.0)))), 8U);
   EXPECT_EQ(kept(Rips(DistanceMatrix(3, {1, 2, 3}))), 2U);
-  // In a square with its diagonals, the first diagonal fills the hole, and the second has no
-  // effect.
+  // In a square with diagonals, the first diagonal fills the hole, and the second changes nothing.
   EXPECT_EQ(kept(Rips(circle(4), {.threshold = 2.5})), 5U);
-  // Graphs without triangles do not collapse. Neither do the flag complexes of the cross-polytopes,
-  // which are spheres.
+  // A graph without triangles does not collapse. The flag complexes of the cross-polytopes, which
+  // are spheres, do not collapse either.
   EXPECT_EQ(kept(Rips(circle(9), {.threshold = chord(9, 1) * 1.01})), 9U);
   std::vector<WeightedEdge> octahedron;
   for (Index u = 0; u < 6; ++u)

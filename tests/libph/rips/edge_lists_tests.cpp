@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The path of edges into a complex: they are collected, sorted into bins, and stored as lists of
+// Edges on their way into a complex: they are collected, sorted into bins, and stored as lists of
 // neighbours.
 #include <algorithm>
 #include <cmath>
@@ -28,7 +28,8 @@ std::vector<EdgeTuple> tuples_of(std::span<const FlagEdge> edges) {
   return result;
 }
 
-// Edges with values from denormal to huge. Every tenth value is one of a few.
+// Edges with values from denormal to huge. About one value in ten is one of five values, which
+// occur many times.
 std::vector<FlagEdge> random_edges(std::size_t count) {
   std::mt19937_64 random(count);
   std::vector<FlagEdge> edges;
@@ -99,8 +100,8 @@ TEST(EdgeLists, NeighboursAscendWhileTheGraphGrows) {
   }
 }
 
-// More vertices than 16-bit numbers can count: a ring with two chords, which cut it into three
-// parts.
+// There are more vertices than 16-bit numbers can count. They form a ring with two chords, which
+// divide it into three parts.
 TEST(EdgeLists, LinkOfMoreVerticesThanShortNumbers) {
   constexpr Index n = 66'000, far = n / 3;
   std::vector<WeightedEdge> edges;
@@ -122,13 +123,13 @@ TEST(EdgeLists, LinkOfMoreVerticesThanShortNumbers) {
   EXPECT_EQ(loops(Engine::cohomology), expected);
 }
 
-// A few vertices are joined to nearly all others: their long lists are searched, not scanned.
+// A few vertices are joined to nearly all others. Their long lists are searched instead of scanned.
 TEST(EdgeLists, OfHubsHaveTheBarsOfAnotherEngine) {
   constexpr std::uint32_t vertices = 1000, hubs = 2;
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     SCOPED_TRACE(seed);
     std::mt19937_64 random(seed);
-    // Small integers with many ties, or nearly no ties.
+    // Values are either small integers, with many ties, or have nearly no ties.
     const double most = seed % 2 == 0 ? 5 : 1e9;
     const auto value = [&] {
       return std::ceil(most * static_cast<double>(random() % 1000) / 1000);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// H3 by links of edges: compares with the oracle pair by pair and cell by cell, over several
-// fields, with ties, and for both ways to store the graph.
+// H3 by edge links: compares the pairs with the oracle cell by cell, over several fields, with
+// ties, and for both ways of storing the graph.
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -12,13 +12,13 @@
 namespace ph::test {
 namespace {
 
-/// Distances between points in random groups; all distances between different groups are short. The
-/// joins of cycles of different groups are cycles of H2, H3 and above.
+/// Distances between points in random groups. All distances between different groups are short. The
+/// joins of cycles in different groups are therefore cycles of H2, H3 and above.
 DistanceMatrix joined_groups(Generator& random, std::vector<Index> sizes, bool ties) {
   std::vector<std::size_t> group;
   for (std::size_t i = 0; i < sizes.size(); ++i)
     group.insert(group.end(), static_cast<std::size_t>(sizes[i]), i);
-  // Shuffles the vertices of the groups.
+  // Distributes the groups among the vertices at random.
   for (std::size_t i = group.size(); i > 1; --i)
     std::swap(group[i - 1],
               group[static_cast<std::size_t>(random.integer(0, static_cast<int>(i) - 1))]);
@@ -81,7 +81,7 @@ TEST(LinkVolumes, OfAnyMatrix) {
   EXPECT_TRUE(is_enough(count, std::size_t{150})) << count;
 }
 
-// Many classes are alive at once, links have no vertex that is joined to nearly all others, and
+// Many classes are alive at the same time, no vertex of a link is joined to nearly all others, and
 // rows have more than one word.
 TEST(LinkVolumes, OfManyClasses) {
   std::size_t count = 0;
@@ -95,7 +95,7 @@ TEST(LinkVolumes, OfManyClasses) {
   EXPECT_TRUE(is_enough(count, std::size_t{1000})) << count;
 }
 
-// A sphere of dimension 3. Its only long class lives until there are many tetrahedra.
+// A sphere of dimension 3. Its only long class is still alive when there are many tetrahedra.
 TEST(LinkVolumes, OfASphere) {
   Generator random(3);
   Points points(60, 4);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Tests the data structures in which the sweep of edge links keeps classes of edges when thousands
+// Tests the data structures in which the sweep of edge links stores classes of edges if thousands
 // of classes are alive.
 #include <algorithm>
 #include <array>
@@ -33,7 +33,7 @@ Sum random_sum(Generator& random, std::size_t generators, int most) {
   return sum;
 }
 
-// The relations as columns, each fully reduced by the preceding columns.
+// The relations as columns. Each column is fully reduced by the columns before it.
 class Oracle {
  public:
   std::optional<std::uint32_t> add(const Sum& relation) {
@@ -58,8 +58,8 @@ class Oracle {
   std::map<std::uint32_t, Sum> meanings_;
 };
 
-// Checks the result of `substitute`: living generators are units, and dead generators are sums of
-// living generators.
+// Checks the result of `substitute`: a living generator stands for itself, and a dead generator for
+// a sum of living generators.
 template <class Relations>
 void check_substitution(const Relations& relations, const Oracle& oracle, std::size_t generators,
                         auto&& substitute) {
@@ -99,7 +99,8 @@ TEST(PairLabels, AreAMatrix) {
   });
 }
 
-// The relations have few or many terms: they are stored as lists or as rows of bits.
+// The relations have few terms and are stored as lists, or many terms and are stored as rows of
+// bits.
 TEST(FormalSums, KillWhatColumnsKill) {
   std::size_t follow = 0;
   for_each_seed(50, [&](Generator& random, bool, std::int64_t) {
@@ -139,7 +140,7 @@ TEST(FormalSums, KillWhatColumnsKill) {
   EXPECT_TRUE(is_enough(follow, std::size_t{500})) << follow;  // the test covers enough cases
 }
 
-// Blocks of relations, between which generators are born. There are so many generators that rows
+// Generators are born between blocks of relations. There are so many generators that rows must
 // grow.
 TEST(SumRows, KillWhatColumnsKill) {
   for_each_seed(30, [](Generator& random, bool, std::int64_t) {

@@ -28,7 +28,7 @@ TEST(RipsGraphs, TheDefaultThresholdIsTheEnclosingRadius) {
     }
     const Rips rips(d);
     EXPECT_EQ(all_edges(rips).threshold(), radius);
-    // Beyond the enclosing radius, nothing changes, for any distances.
+    // Nothing changes beyond the enclosing radius, whatever the distances are.
     EXPECT_EQ(bars_of(persistence(rips, {.max_dim = 3})),
               bars_of(persistence(Rips(d, {.threshold = kInf}), {.max_dim = 3})));
   });
@@ -55,7 +55,8 @@ TEST(RipsGraphs, TheThresholdIsInclusive) {
   }
 }
 
-// The keys 1, 2, … follow the order of the edges by (distance, larger end, smaller end).
+// Checks that the keys 1, 2, … follow the order of the edges by (distance, larger end, smaller
+// end).
 void expect_keys_ascend(const Rips& rips) {
   std::vector<std::array<double, 3>> edges;
   for (RipsGraph::Key key = 1; key <= all_edges(rips).edge_count(); ++key) {
@@ -87,7 +88,8 @@ struct NegativeZeros {
   double operator()(Index i, Index j) const { return (i + j) % 2 == 0 ? 0.0 : -0.0; }
 };
 
-// Bins with many edges, with few edges and with a single value, with and without a threshold.
+// Some bins have many edges, some have few edges, and some have a single value. The threshold may
+// be absent.
 TEST(RipsGraphs, ManyEdgesAreSorted) {
   for (std::uint64_t seed = 0; seed < 8; ++seed) {
     Generator random(seed);
@@ -112,11 +114,11 @@ TEST(RipsGraphs, ManyEdgesAreSorted) {
   }
 }
 
-// Requesting edges bin by bin gives the same edges as requesting all at once. The edges of other
-// bins stay unsorted.
+// If edges are requested bin by bin, they are the same as if all are requested at once. Other bins
+// stay unsorted.
 TEST(RipsGraphs, BinsAreSortedWhenTheyAreNeeded) {
   Generator random(3);
-  // Nearly equal distances, and thus large bins.
+  // The distances are nearly equal, so the bins are large.
   const Points points = random.points(1000, 8, false);
   RunContext one, three;
   one.threads = 1;
@@ -140,7 +142,7 @@ TEST(RipsGraphs, BinsAreSortedWhenTheyAreNeeded) {
   }
 }
 
-// There are enough edges for threads to share the sorting and the links.
+// There are enough edges for several threads to share the sorting and the links.
 TEST(RipsGraphs, ThreadsAgreeOnManyEdges) {
   Generator random(5);
   const Points points = random.points(1400, 8, false);
@@ -205,8 +207,8 @@ TEST(RipsGraphs, CliqueBoundsHold) {
       EXPECT_EQ(f.top_dim(), static_cast<int>(bound) - 1);
       for (int dim = 0; dim <= f.top_dim() + 1; ++dim) f.for_each_cell(dim, [](const auto&) {});
     });
-    // No simplex is missing: the complex has the Euler characteristic of the complex of all
-    // cliques.
+    // Checks that no simplex is missing: the Euler characteristic equals the Euler characteristic
+    // of the complex of all cliques.
     check(rips, 12, {2});
   });
 }
@@ -300,7 +302,7 @@ TEST(RipsInputs, MergedPointsAreNamedByTheFirstOfThem) {
   expect_error(ErrorKind::bad_data, "point 1", [&] { Rips(points, {.merge_equal_points = true}); });
 }
 
-// Each pair of copies would be an edge, 10^12 in total.
+// Each pair of copies would be an edge. In total, there would be 10^12 edges.
 TEST(RipsInputs, AMillionCopiesTakeNearLinearTime) {
   Points points(1000000, 3);
   for (Index i = 0; i < points.rows(); ++i)

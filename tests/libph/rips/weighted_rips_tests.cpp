@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Weighted Rips filtrations, in which vertices enter late: compares them with the definition.
+// Weighted Rips filtrations, whose vertices enter late: compares them with the definition.
 #include <limits>
 #include <numeric>
 
@@ -26,7 +26,7 @@ std::vector<double> random_births(Generator& random, Index n, bool ties) {
   return births;
 }
 
-/// A random ascending subset of n points; not empty unless there is at most one point.
+/// A random subset of the numbers 0 to n-1 in ascending order. It may be empty.
 std::vector<std::uint32_t> random_vertices(Generator& random, Index n) {
   std::vector<std::uint32_t> chosen;
   for (std::uint32_t v = 0; v < n; ++v)
@@ -34,7 +34,7 @@ std::vector<std::uint32_t> random_vertices(Generator& random, Index n) {
   return chosen;
 }
 
-/// The radius (t^p - b^p)^(1/p) / 2 at diameter t of a ball that is born at b.
+/// The radius (t^p - b^p)^(1/p) / 2, at diameter t, of a ball that is born at b.
 double radius(double t, double b, WeightExponent exponent) {
   switch (exponent) {
     case WeightExponent::one:
@@ -55,7 +55,7 @@ TEST(VertexWeights, EdgesEnterWhenBallsMeet) {
       EXPECT_EQ(VertexWeights(b, exponent).edge_value(1, 0, d), t);
       ASSERT_GE(t, std::max({b[0], b[1], d}));
       const double reach = radius(t, b[0], exponent) + radius(t, b[1], exponent);
-      // The root of a difference that is nearly 0 is inexact.
+      // If a difference is nearly 0, its root is inexact.
       EXPECT_GE(reach, d * (1 - 1e-7) - 1e-7);
       if (t > std::max(b[0], b[1])) {
         EXPECT_NEAR(reach, d, 1e-7) << "they met before";
@@ -136,8 +136,8 @@ TEST(WeightedRips, IsTheFiltrationThatItSays) {
   });
 }
 
-// Compares every engine, and the collapse, with the oracle. Births have ties with each other and
-// with edges.
+// Compares every engine, and the edge collapse, with the oracle. There are ties among births, and
+// between births and edges.
 TEST(WeightedRips, PassesTheSuite) {
   for_each_seed(6000, [](Generator& random, bool ties, std::int64_t field) {
     const Index n = random.integer(0, 9);

@@ -66,7 +66,7 @@ TEST(UniversalPValues, OfBarsWithoutARatio) {
   const std::vector<Bar> alone{bars[0], bars[3]};
   EXPECT_EQ(found.p[3], universal_p_values(alone, DistanceFiltration::rips).p[1]);
   EXPECT_TRUE(universal_p_values({}, DistanceFiltration::rips).p.empty());
-  // A ratio of 10^310 is too large for a double; its logarithm is not.
+  // A ratio of 10^310 is too large for a double, but its logarithm is not.
   const std::vector<Bar> vast{{1, 1e-300, 1e10}, {1, 1, 2}};
   const double outer[] = {std::log(310 * std::log(10.0)), std::log(std::log(2.0))};
   const double p = std::exp(-std::exp(outer[0] - (outer[0] + outer[1]) / 2 - std::numbers::egamma));
@@ -95,7 +95,8 @@ TEST(UniversalPValues, AreUniformForNoise) {
       all.insert(all.end(), found.p.begin(), found.p.end());
     }
     std::ranges::sort(all);
-    // The Kolmogorov-Smirnov statistic, for a few hundred bars that are not independent.
+    // Computes the Kolmogorov-Smirnov statistic of a few hundred bars, which are not independent of
+    // each other.
     double largest = 0;
     for (std::size_t i = 0; i < all.size(); ++i)
       largest = std::max(

@@ -36,7 +36,7 @@ double distance(const Points& points, Index i, Index j) {
   return std::sqrt(square);
 }
 
-/// The Hausdorff distances between the points and all their subsets of a size, ascending.
+/// The Hausdorff distances between the points and all their subsets of a given size, ascending.
 std::vector<double> of_all_subsets(const Points& points, std::size_t size) {
   std::vector<double> result;
   const auto n = static_cast<std::size_t>(points.rows());
@@ -88,7 +88,7 @@ TEST(ConfidenceRadius, SeedsAndThreads) {
   EXPECT_EQ(confidence_radius(points, {.seed = 1}, with_threads(three, 3)), found);
   EXPECT_NE(confidence_radius(points, {.seed = 2}), found);
   EXPECT_GT(found, 0);
-  // By default, subsamples have n / ln n points, which is 80.
+  // By default, subsamples have n / ln n points, here 80.
   EXPECT_EQ(confidence_radius(points, {.size = 80, .seed = 1}), found);
   // For equal points, the radius is 0.
   EXPECT_EQ(confidence_radius(Points{{1, 2}, {1, 2}, {1, 2}, {1, 2}}), 0);
@@ -219,7 +219,8 @@ TEST(PermutationTests, AreNearTheExactTest) {
   }
 }
 
-// Powers of very large distances would overflow, and powers of very small distances would be 0.
+// Powers of very large distances would overflow, and powers of very small distances would
+// underflow.
 TEST(PermutationTests, UnitsDoNotMatter) {
   const std::vector<double> places{20, 21.5, 20.25, 40, 41, 40.3};
   const std::vector<std::int64_t> groups{0, 0, 0, 1, 1, 1};
@@ -245,7 +246,8 @@ TEST(PermutationTests, SeedsAndThreads) {
   const double p = permutation_test(matrix_of(places), groups, {}, with_threads(one, 1)).p;
   EXPECT_EQ(permutation_test(matrix_of(places), groups, {}, with_threads(three, 3)).p, p);
   EXPECT_NE(permutation_test(matrix_of(places), groups, {.seed = 9}).p, p);
-  // For groups that are far apart, the p-value is the least possible for this number of shuffles.
+  // If the groups are far apart, the p-value is the smallest that is possible with this number of
+  // shuffles.
   for (std::size_t i = 0; i < places.size(); ++i) places[i] += 100 * static_cast<double>(groups[i]);
   EXPECT_EQ(permutation_test(matrix_of(places), groups, {.shuffles = 99}).p, 0.01);
 }

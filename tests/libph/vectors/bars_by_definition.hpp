@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-// Vectors of diagrams by their definitions, value by value and in higher precision.
+// Computes vectors of diagrams by their definitions, value by value and in higher precision.
 #include <algorithm>
 #include <cmath>
 #include <span>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Values that are fitted to many diagrams, and kernels of two diagrams.
+// Centres and other values that are fitted to many diagrams, and kernels of two diagrams.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -54,7 +54,7 @@ TEST(Atol, CentresAreTheMeansOfTheirBars) {
     double bars = 0;
     for (std::size_t k = 0; k < count; ++k) {
       bars += counts[k];
-      if (steps > 0) continue;  // a bar at the same distance from two centres may belong to either
+      if (steps > 0) continue;  // with ties, a bar may be equally far from two centres
       ASSERT_NEAR(fitted.centres[k][0], sums[k][0] / counts[k], 1e-12) << round;
       ASSERT_NEAR(fitted.centres[k][1], sums[k][1] / counts[k], 1e-12) << round;
     }
@@ -150,12 +150,12 @@ TEST(Atol, OfFewBars) {
                [&] { fit_atol(Spans{two}, {.centres = 3}); });
   expect_error(ErrorKind::bad_data, "different bars: found 0",
                [&] { fit_atol({}, {.centres = 1}); });
-  // As a double, the square of the distance between the first two bars is 0.
+  // The squared distance between the first two bars is 0 as a double.
   const Bars close = {{0, 0, 1}, {0, 5e-324, 1}, {0, 0, 1 + 0x1p-52}};
   EXPECT_EQ(fit_atol(Spans{close}, {.centres = 2, .most_rounds = 0}).centres.size(), 2U);
 }
 
-// The mean of equal numbers is exactly this number, however sums are rounded.
+// The mean of equal numbers is exactly this number, however the sums are rounded.
 TEST(Atol, OfEqualBars) {
   const Bars three(3, {1, 0.1, 0.3});
   const std::span<const Bar> diagrams[]{three};
@@ -165,7 +165,7 @@ TEST(Atol, OfEqualBars) {
   double vector = 0;
   atol_vector(three, fitted, {&vector, 1});
   EXPECT_EQ(vector, 3);
-  // Half of the distance between two of these bars underflows.
+  // Half the distance between two of these bars underflows.
   const Bars small{{1, 0, 1e-20}, {1, 1e-310, 1e-20}, {1, -1e-20, 1e-20}};
   const std::span<const Bar> of_small[]{small};
   std::vector<double> out(3);

@@ -44,7 +44,7 @@ TEST(Grids, AreFittedToBatches) {
   EXPECT_EQ(fit_grid(Spans{a, b}, 7), (Grid{0.5, 3, 7}));
   EXPECT_EQ(fit_grid(Spans{none}, 7), (Grid{0, 1, 7}));
   EXPECT_EQ(fit_grid(Spans{}), (Grid{0, 1, 100}));
-  EXPECT_EQ(fit_grid(Spans{one}), (Grid{0, 1, 100}));  // such a bar does not count for any curve
+  EXPECT_EQ(fit_grid(Spans{one}), (Grid{0, 1, 100}));  // no curve counts such a bar
   const Bars end = {{0, 4, kInfinity}}, large = {{0, 1e15, kInfinity}};
   EXPECT_EQ(fit_grid(Spans{end, one}), (Grid{3.5, 4.5, 100}));
   EXPECT_LT(fit_grid(Spans{large}).lo, 1e15);
@@ -54,7 +54,8 @@ TEST(Grids, AreFittedToBatches) {
   EXPECT_EQ(fit_image_frame(Spans{Bars{{0, 5, 7}}}, 3, 4), (ImageFrame{{4, 6, 3}, {0, 2, 4}}));
 }
 
-// Even where the estimate of a position is wrong, the result equals the result of a search.
+// The position of a value on a grid is first estimated. Even if the estimate is wrong, the result
+// equals the result of a search.
 TEST(Grids, PlacesAreThoseOfASearch) {
   std::mt19937 random(1);
   const Grid grids[] = {
@@ -160,7 +161,8 @@ TEST(Curves, OfKnownBars) {
   EXPECT_EQ(out, std::vector<double>(4));
 }
 
-// Bars far from 0 with very different lengths: sums keep the contribution of the short bars.
+// The bars are far from 0 and have very different lengths. Sums must keep the contribution of the
+// short bars.
 TEST(Curves, KeepSmallBarsBesideLargeOnes) {
   const Bars bars = {{0, 1000, 1001}, {0, 1000.25, 1000.25 + 0x1p-20}};
   const Grid grid{1000, 1001, 4097};
@@ -171,7 +173,7 @@ TEST(Curves, KeepSmallBarsBesideLargeOnes) {
     ASSERT_NEAR(shape[i], test::silhouette_at(bars, 0, values[i]), 1e-15);
   const Bars scaled = {{0, -1e100, 1e100}, {0, 0, 1e-100}};
   std::vector<double> out(3);
-  silhouette(scaled, {-1e100, 1e100, 3}, 4, out);  // fourth powers of the lengths would be infinite
+  silhouette(scaled, {-1e100, 1e100, 3}, 4, out);  // fourth powers of the lengths would overflow
   EXPECT_EQ(out, (std::vector<double>{0, 1e100, 0}));
 }
 

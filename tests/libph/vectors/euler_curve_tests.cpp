@@ -21,7 +21,7 @@ using test::expect_error;
 using test::Generator;
 using Construction = CubicalOptions::Construction;
 
-/// For each value, the change of Σ (-1)^dim over the bars that are alive.
+/// The values at which Σ (-1)^dim over the living bars changes, with the changes.
 std::map<double, std::int64_t> changes_of(const Barcode& bars) {
   std::map<double, std::int64_t> changes;
   for (const Bar& bar : bars) {
@@ -43,8 +43,8 @@ StepFunction curve_of(const std::map<double, std::int64_t>& changes) {
   return curve;
 }
 
-/// Compares the curve with the curve of the bars, at its own steps and on grids, for any number of
-/// threads.
+/// Compares the Euler curve of an image with the curve of its bars, at the steps of the curve and
+/// on grids, for any number of threads.
 void check(const Image& image, const CubicalOptions& options) {
   const Cubical cubical(image, options);
   const Barcode bars = persistence(
@@ -127,8 +127,8 @@ TEST(EulerCurves, OfManyAxes) {
   }
 }
 
-/// Counts the cells of either construction by a simple method: it computes the values of all cells
-/// of the doubled grid.
+/// The Euler curve by a simple method for either construction: computes the values of all cells of
+/// the doubled grid and counts the cells.
 StepFunction by_all_cells(const Image& image, bool vertices) {
   const Index n = image.extents[0], m = image.extents[1];
   std::map<double, std::int64_t> changes;

@@ -26,7 +26,7 @@ std::vector<double> statistics_of(const Bars& bars) {
   return out;
 }
 
-/// The nine numbers, each by its definition.
+/// The nine statistics, each computed by its definition.
 std::vector<double> nine_numbers(std::vector<long double> x) {
   const auto n = static_cast<long double>(x.size());
   long double mean = 0, square = 0;
@@ -81,7 +81,7 @@ TEST(Statistics, AreTheirDefinitions) {
 TEST(Statistics, OfKnownBars) {
   const std::vector<double> four =
       statistics_of({{0, 0, 4}, {0, 1, 2}, {0, 3, 5}, {0, 9, 9}, {0, 0, 1}});
-  // The births 0, 0, 1, 3; NumPy gives the expected values.
+  // The births are 0, 0, 1 and 3. The expected values were computed by NumPy.
   EXPECT_EQ(four[0], 1);
   EXPECT_DOUBLE_EQ(four[1], std::sqrt(1.5));
   EXPECT_EQ(four[2], 0.5);
@@ -145,7 +145,7 @@ TEST(Entropies, AreTheirDefinition) {
   EXPECT_EQ(entropy({}), 0);
   EXPECT_EQ(entropy(Bars{{0, 1, 2}}), 0);
   EXPECT_EQ(entropy(Bars{{0, 1, 2}, {0, 1, 1}}, true), 0);
-  // The share of the short bar is 0 as a double.
+  // As a double, the share of the short bar in the total length is 0.
   EXPECT_EQ(entropy(Bars{{0, 0, 1e100}, {0, 0, 1e-300}}), 0);
 }
 
@@ -207,11 +207,12 @@ TEST(Images, HaveAllOfABarThatIsInside) {
   double sum = 0;
   for (const double x : out) sum += x;
   EXPECT_NEAR(sum, 1, 1e-14);
-  // A distribution narrower than a pixel lies in a single pixel: the pixel with birth 0.005 and
-  // length 1.9.
+  // A distribution narrower than a pixel lies in a single pixel, here the pixel with birth 0.005
+  // and length 1.9.
   persistence_image(Bars{{0, 0.005, 1.905}}, frame, 1e-9, 0, out);
   for (std::size_t i = 0; i < out.size(); ++i) ASSERT_EQ(out[i], i == 47 * 100 ? 1 : 0) << i;
-  // A bar at the border of the frame has half of its mass inside; a bar beyond the border has none.
+  // A bar on the border of the frame has half of its mass inside. A bar beyond the border has no
+  // mass inside.
   persistence_image(Bars{{0, 0, 1.02}}, frame, 1e-5, 0, out);
   EXPECT_NEAR(out[25 * 100], 0.5, 1e-15);
   persistence_image(Bars{{0, 1, 2.02}}, frame, 1e-5, 0, out);
@@ -220,7 +221,7 @@ TEST(Images, HaveAllOfABarThatIsInside) {
   EXPECT_EQ(out, std::vector<double>(5000));
   persistence_image({}, frame, 0.01, 1, out);
   EXPECT_EQ(out, std::vector<double>(5000));
-  // The Gaussian is so wide that no pixel has any mass left.
+  // The Gaussian is so wide that the mass in each pixel is 0.
   persistence_image(Bars{{0, 0.5, 1.5}}, frame, 1e300, 1, out);
   for (const double x : out) ASSERT_NEAR(x, 0, 1e-300);
 }
