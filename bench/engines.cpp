@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Runs every engine on small standard inputs, for profiling and for comparisons before and after a
-// change.
+// Runs every engine on small standard inputs. Use it for profiling, and to compare times before and
+// after a change.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -36,7 +36,8 @@ void run(benchmark::State& state, const Complex& complex, ph::Options options) {
 }
 
 /// Adds one benchmark. Its dimension is max_dim or, if the engine does not support max_dim, the
-/// highest lower dimension that the engine supports. Adds none if there is no such dimension.
+/// highest dimension below it that the engine supports. If there is no such dimension, adds
+/// nothing.
 template <class Complex>
 void add(const std::string& input, const Complex& complex, const ph::EngineFacts& engine,
          int max_dim) {
@@ -49,7 +50,7 @@ void add(const std::string& input, const Complex& complex, const ph::EngineFacts
           ->Unit(benchmark::kMillisecond);
       return;
     } catch (const ph::Error&) {
-      // The engine does not support this complex, or does not support this dimension.
+      // The engine does not support this complex, or does not support this dimension of it.
     }
 }
 
@@ -62,7 +63,8 @@ int main(int argc, char** argv) {
     add("rips_60/", small, engine, 1);
     add("cubical_12/", grid, engine, 1);
     if (engine.is_oracle) continue;
-    // An engine that lists the cells of dimension 2 would list every triangle.
+    // Leaves out engines that list the cells of dimension 2, because they would list every
+    // triangle.
     if (engine.listed_dim(1) < 2) add("rips_1000/", large, engine, 1);
     add("cubical_64/", volume, engine, 3);
   }

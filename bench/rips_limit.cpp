@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// The minimum work of any algorithm for H0 and H1 of a distance matrix: reads the input, finds the
-// enclosing radius, and sorts the edges up to this radius by (value, u, v). compare_rips.py uses it
-// as the lower limit.
+// Does the least work of any algorithm for H0 and H1 of a distance matrix: reads the input, finds
+// the enclosing radius, and sorts the edges up to this radius by (value, u, v). compare_rips.py
+// uses the time as a lower bound.
 //
-// It shares no code with libph and must not be tuned together with libph, because a reference that
-// changes with libph would hide changes of libph. The sort is a radix sort from the lowest digit,
-// with 11 bits per digit. The sort needs only the 32 bits of the value, because the sort is stable
-// and edges are created in the order of (u, v).
+// The program shares no code with libph and must not be tuned together with libph. A reference that
+// changes with libph would hide changes of libph. The sort is a radix sort that begins with the
+// lowest digit and has 11 bits per digit. Only the 32 bits of the value are sorted, because the
+// sort is stable and edges are created in the order of (u, v).
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -45,7 +45,8 @@ struct Triangle {
   std::vector<float> values;
 };
 
-/// Reads distances stored as float32, little endian like the machines of the measurements.
+/// Reads distances stored as float32 in little-endian order, which is the order of the machines on
+/// which this program is measured.
 Triangle read_triangle(const std::string& bytes) {
   Triangle t;
   t.values.resize(bytes.size() / sizeof(float));
@@ -54,8 +55,8 @@ Triangle read_triangle(const std::string& bytes) {
   return t;
 }
 
-/// The distances of the points of a text with one point per line and coordinates separated by
-/// blanks or commas.
+/// The distances between the points in a text. Each line is a point, and coordinates are separated
+/// by blanks or commas.
 Triangle read_points(std::string_view text) {
   std::vector<double> coordinates;
   Triangle t;

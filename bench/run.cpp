@@ -2,9 +2,9 @@
 // Runs a command and writes the cost of its process to a file descriptor: "status user system wall
 // peak". The status comes from wait4, times are in seconds, and the peak is in bytes.
 //
-// A process starts as a copy of its parent, and the kernel counts this copy in the peak memory. If
-// an interpreter started the command, the peak would be at least that of the interpreter. This
-// program is small and hardly adds to the peak.
+// A process starts as a copy of its parent, and the kernel includes this copy in the peak memory.
+// If an interpreter started the command, the peak would be at least the memory of the interpreter.
+// This program is so small that it hardly raises the peak.
 #include <cerrno>
 #include <chrono>
 #include <csignal>

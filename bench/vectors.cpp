@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Measures vectors of 10,000 bars, and Euler curves of images of N³ voxels with noise and with
-// smooth waves. Prints CPU seconds of one thread, the least of three runs, and nanoseconds per
-// voxel.
+// Measures vectors of 10,000 bars, and Euler curves of images of N³ voxels with noise or with
+// smooth waves. Prints the CPU seconds of one thread and the nanoseconds per voxel. Each time is
+// the shortest of three runs.
 //
 // bench_vectors [N]     (default 512; 0: no Euler curves)
 #include <fmt/format.h>

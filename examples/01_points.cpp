@@ -16,7 +16,8 @@ int main(int argc, char** argv) {
   }
   std::cout << bars.bars(0).size() << " components at scale 0, " << long_loops << " long loops\n";
 
-  // Each bar stores its birth cell and death cell: here, the edge that closed the longest loop.
+  // Each bar stores its birth cell and its death cell. The birth cell of the longest loop is the
+  // edge that closed it.
   const auto closing = bars.birth_cell(bars.longest(1)).numbers;
   std::cout << "the longest loop closed between points " << closing[0] << " and " << closing[1]
             << "\n";

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Many points, a threshold and another field: only pairs within the threshold are examined.
+// Uses a threshold and another field for many points. Only pairs of points within the threshold are
+// examined.
 #include <cmath>
 #include <iostream>
 #include <numbers>
 #include <ph/ph.hpp>
 
 int main() {
-  // Points on a sphere along a golden spiral.
+  // Places points on a sphere along a golden spiral.
   ph::Points sphere(600, 3);
   for (ph::Index i = 0; i < sphere.rows(); ++i) {
     const double z = 1 - (2 * static_cast<double>(i) + 1) / static_cast<double>(sphere.rows());

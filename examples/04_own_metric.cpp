@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Your own metric needs two functions. Here it is the great-circle distance between places along
-// the Pacific's Ring of Fire, whose one large loop is the ocean.
+// A metric of your own needs two functions. Here it is the great-circle distance between places
+// along the Pacific's Ring of Fire, which forms one large loop around the ocean.
 #include <cmath>
 #include <iostream>
 #include <numbers>

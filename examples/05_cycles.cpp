@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Locates the loop of the longest bar of H1: prints the shortest walk around it, from point to
-// point.
+// Locates the loop of the longest bar of H1: prints the shortest closed walk around the loop, point
+// by point.
 #include <iostream>
 #include <ph/io/read.hpp>
 #include <ph/ph.hpp>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Your own complex needs three small functions. Every engine that requires no more runs on it. Here
-// it is a polygon whose sides appear one by one, followed by the disc inside.
+// A complex of your own needs three small functions, and runs on every engine that needs no more
+// than these. Here it is a polygon whose sides appear one by one, followed by the disc inside.
 #include <iostream>
 #include <ph/custom.hpp>
 #include <ph/ph.hpp>
@@ -40,7 +40,7 @@ int main() {
   for (const ph::Bar& bar : bars)
     std::cout << "H" << bar.dim << " [" << bar.birth << ", " << bar.death << ")\n";
 
-  // The engine `oracle` needs nothing from a complex beyond the class above.
+  // The engine `oracle` needs only the functions of the class above.
   const ph::Barcode truth = ph::persistence(polygon, {.field = 3, .engine = ph::Engine::standard});
   std::cout << (ph::first_difference(bars, truth).empty() ? "agrees" : "disagrees")
             << " with the oracle\n";

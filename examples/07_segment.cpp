@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Segments a table top: reads a cloud, and writes the same cloud with labels. 07_segment table.pcd
-// labels.pcd
+// Segments a table top: reads a cloud, and writes the same cloud with labels.
+//
+// 07_segment table.pcd labels.pcd
 #include <iostream>
 #include <ph/segment.hpp>
 

@@ -18,7 +18,7 @@ int main() {
     points.set_row(i, {t * std::cos(angle), t * std::sin(angle)});
   }
 
-  // Only the distances that the components need are computed.
+  // Only the distances that are needed for the components are computed.
   const ph::MergeTree tree = ph::merge_tree(ph::Rips(points));
   const auto rows = ph::linkage(tree);
   std::cout << "last merges at " << rows[rows.size() - 2].value << " and " << rows.back().value

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Handles large inputs by subsampling and by a sparse filtration, and outliers by DTM weights.
+// Handles large inputs by a subsample or by a sparse filtration, and handles outliers by DTM
+// weights.
 #include <cmath>
 #include <iostream>
 #include <numbers>
@@ -33,13 +34,13 @@ int main() {
   std::cout << "100 points, covering radius " << radius << ": "
             << long_loops(ph::persistence(sample), 2 * radius) << " real loop\n";
 
-  // Births and deaths come later than the exact ones by a factor of at most 1.5.
+  // Births and deaths are later than the exact values, by a factor of at most 1.5.
   const ph::Rips sparse(circle, {.approximation = 0.5});
   const auto all = static_cast<std::size_t>(circle.rows() * (circle.rows() - 1) / 2);
   std::cout << long_loops(ph::persistence(sparse), 0.5) << " loop in 1/"
             << all / *ph::facts(sparse, ph::plan(sparse)).edges << " of the edges\n";
 
-  // With dtm_neighbours, points in sparse regions enter late.
+  // If dtm_neighbours is set, points in sparse regions enter late.
   const ph::Rips weighted(points, {.dtm_neighbours = 40});
   std::cout << long_loops(ph::persistence(weighted), 0.5) << " loop among the outliers\n";
 }

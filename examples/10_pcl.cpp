@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Segments a box on a box through the interface in the style of the Point Cloud Library. 10_pcl
-//   stack.pcd
+// Segments a box that stands on a box. The interface has the style of the Point Cloud Library.
+//
+// 10_pcl stack.pcd
 #include <iostream>
 #include <ph/pcl.hpp>
 
@@ -9,7 +10,8 @@ int main(int argc, char** argv) {
     std::cerr << "usage: 10_pcl CLOUD\n";
     return 64;
   }
-  // Any cloud of points with x, y, z works; this example uses libph's strict reader.
+  // Any cloud of points with x, y and z can be used. This example reads it with libph's strict
+  // reader.
   const ph::Cloud file = ph::segment::read_cloud(argv[1]);
   const std::vector<float> xyz = file.xyz();
   const auto cloud = pcl::make_shared<pcl::PointCloud<pcl::PointXYZ>>(
@@ -34,7 +36,8 @@ int main(int argc, char** argv) {
               << segmentation.getConfidences()[i] << ", box of " << size.transpose() << " m around "
               << centre.transpose() << "\n";
   }
-  // A coarser cut of the same tree: the plane, voxels and normals are not computed again.
+  // Computes a coarser cut of the same tree. The plane, the voxels and the normals are not computed
+  // again.
   segmentation.cut(30, clusters);
   std::cout << clusters.size() << " segments when cut at 30\n";
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Finds the objects that have a handle or a hole: segments a ring and a ball and computes their
-//   homology. 11_handles [CLOUD.pcd|.ply]
+// Finds the objects that have a handle or a hole: segments a ring and a ball, and computes their
+// homology.
+//
+// 11_handles [CLOUD.pcd|.ply]
 #include <cmath>
 #include <iostream>
 #include <numbers>

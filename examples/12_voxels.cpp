@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Finds the loops and the void of a point cloud by converting it to voxels: the cost depends on the
-// volume, not on the number of pairs of points.
+// Finds the loops and the void of a point cloud by converting it to voxels. The cost depends on the
+// volume instead of the number of pairs of points.
 #include <cmath>
 #include <iostream>
 #include <numbers>

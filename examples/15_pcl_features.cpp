@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Continues with PCL after a segmentation: computes the normals of each object, its flat top, and
 // the place where a suction cup would hold it.
-//   15_pcl_features stack.pcd
+//
+// 15_pcl_features stack.pcd
 #include <pcl/common/centroid.h>
 #include <pcl/features/normal_3d.h>
 #include <pcl/search/kdtree.h>
@@ -13,7 +14,8 @@
 
 using Cloud = pcl::PointCloud<pcl::PointXYZ>;
 
-/// Any cloud of points with x, y, z works; this example uses libph's strict reader.
+/// Any cloud of points with x, y and z can be used. This example reads it with libph's strict
+/// reader.
 Cloud::Ptr read(const char* path) {
   const ph::Cloud file = ph::segment::read_cloud(path);
   const std::vector<float> xyz = file.xyz();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // bench_alpha delaunay|bars FILE [THREADS]: computes CGAL's triangulation of points, or all bars of
-// their alpha complex. Prints the CPU seconds, without reading, and the number of cells or bars.
+// their alpha complex. Prints the CPU seconds without the time for reading, and the number of cells
+// or bars.
 #include <CGAL/Delaunay_triangulation_2.h>
 #include <CGAL/Delaunay_triangulation_3.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Compares H0 of points computed in parts, one after another, with H0 of all points at once: CPU
-// seconds, the largest memory of a part in addition to the points, and the bytes of all parts.
-// Prints whether the bars are the same. Uses one thread.
+// Computes H0 of points in parts, one after another, and H0 of all points at once. Prints the CPU
+// seconds of both, the largest memory of a part without the points, the bytes of all parts, and
+// whether the bars are the same. Uses one thread.
 //
 // bench_cloud_parts [POINTS [PARTS…]]
 #include <fmt/format.h>

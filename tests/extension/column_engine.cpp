@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A user's engine: it reduces the boundary matrix from left to right, with columns stored as sorted
-// vectors. Nothing but this file is needed; every program that links it has the engine.
+// An engine defined by a user: it reduces the boundary matrix from left to right, with columns
+// stored as sorted vectors. The engine needs only this file. Every program that links the file has
+// the engine.
 #include <algorithm>
 #include <ph/custom.hpp>
 #include <unordered_map>
@@ -35,7 +36,7 @@ struct ColumnEngine {
       f.for_each_cell(dim, [&](const Cell& c) { columns.push_back(c); });
       std::sort(columns.begin(), columns.end(), precedes);
       is_cycle.assign(columns.size(), false);
-      std::unordered_map<std::size_t, Column> reduced;  // keyed by their lowest rows
+      std::unordered_map<std::size_t, Column> reduced;  // the key is the lowest row of the column
       for (std::size_t j = 0; j < columns.size(); ++j) {
         ticker.tick();
         Column column;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Runs the conformance suite on a user's complex. The user's engine takes part, because it is
-// linked.
+// Runs the conformance suite on complexes defined by a user. The user's engine is tested as well,
+// because the program links it.
 #include "tests/extension/own_complexes.hpp"
 #include "tests/extension/polygon.hpp"
 #include "tests/support/conformance.hpp"
@@ -59,8 +59,8 @@ TEST(Extension, DiametersAreTheRipsFiltration) {
     const DistanceMatrix distances = random.distances(random.integer(2, 8), ties);
     const Diameters simplices(distances);
     check(simplices, 2, {field});
-    // The threshold keeps all simplices, because the enclosing radius would leave out only bars of
-    // length zero.
+    // The threshold is so high that all simplices are kept. The default, the enclosing radius,
+    // would leave out some simplices, and with them bars of length zero.
     const Rips rips(distances, {.threshold = 10});
     const Options options{.max_dim = 2, .field = field};
     EXPECT_EQ(first_difference(persistence(simplices, options), persistence(rips, options)), "");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-// Complexes with the base classes of ph/custom.hpp and only the functions that these base classes
-// require.
+// Complexes that are derived from the base classes of ph/custom.hpp. They have only the functions
+// that these base classes require.
 #include <algorithm>
 #include <limits>
 #include <map>
@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-/// Simplices from a list; other simplices never enter.
+/// Simplices from a list. All other simplices never enter.
 class LookedUp : public ph::SimplexFiltration<LookedUp, 3> {
  public:
   LookedUp(ph::Index vertices, const ph::SimplexList& simplices) : vertices_(vertices) {

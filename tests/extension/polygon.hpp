@@ -5,8 +5,8 @@
 #include <ph/custom.hpp>
 #include <vector>
 
-/// A third-party complex: points joined in their order, and the last point to the first. Points
-/// enter at 0, sides at their length.
+/// A complex defined by a user: each point is joined to the next point, and the last point to the
+/// first. Points enter at 0, and sides enter at their length.
 class Polygon : public ph::CellFiltration<Polygon, 1, int> {
  public:
   explicit Polygon(ph::PointsView points) {
@@ -19,7 +19,7 @@ class Polygon : public ph::CellFiltration<Polygon, 1, int> {
                                               points(static_cast<ph::Index>(next(i)), k));
   }
 
-  // The first numbers are corners; the others are sides, each from a corner to the next.
+  // The first numbers are corners. The other numbers are sides, each from one corner to the next.
   double value(Cell cell) const {
     return cell < corners_ ? 0 : sides_[static_cast<std::size_t>(cell - corners_)];
   }
@@ -38,7 +38,7 @@ class Polygon : public ph::CellFiltration<Polygon, 1, int> {
     visit(next(side), 1);
   }
 
-  // Names cells by their corners; without this function, a cell would be named by its number.
+  // Names cells by their corners. Without this function, cells would be named by their numbers.
   ph::CellKind cell_kind() const { return ph::CellKind::vertices; }
   void append_input_cell(int dim, Cell cell, std::vector<ph::Index>& numbers) const {
     if (dim == 0) {

@@ -25,7 +25,7 @@ int main(int argc, char** argv) {
                            usage.ru_utime.tv_usec + usage.ru_stime.tv_usec;
   fprintf(report, "%ld %lld\n", usage.ru_maxrss, microseconds);
   if (fclose(report) != 0) return 126;
-  if (WIFSIGNALED(status)) { /* dies of the same signal, without a second core dump */
+  if (WIFSIGNALED(status)) { /* ends by the same signal, without a second core dump */
     const struct rlimit none = {0, 0};
     setrlimit(RLIMIT_CORE, &none);
     signal(WTERMSIG(status), SIG_DFL);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// read_with_pcl FILE.pcd|FILE.ply: reads a cloud as PCL's users do and prints its number of points;
-// exits with 1 if PCL reports that reading failed. Called by compare_peers.py.
+// read_with_pcl FILE.pcd|FILE.ply: reads a cloud as PCL's users do and prints its number of points.
+// Exits with 1 if PCL reports an error. compare_peers.py calls this program.
 #include <pcl/io/pcd_io.h>
 #include <pcl/io/ply_io.h>
 #include <pcl/point_types.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A user's program, with a user's includes. It calls a function of each library.
+// A program like a user's, with the includes that users write. It calls a function of each library.
 #include <ph/ph.hpp>
 #ifndef CORE_ALONE
 #include <ph/io/read.hpp>
@@ -24,7 +24,7 @@
 #include <string_view>
 
 int main(int argc, char** argv) try {
-  // Users choose their own warnings: in our own build, this conversion would be an error.
+  // Users choose their own warnings. In libph's own build, this conversion would be an error.
   const int three = 3.5;
 #ifdef CORE_ALONE
   const ph::Points points{{0, 0}, {1, 0}, {1, 1}, {0, 1.25}};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Input that is empty, or is not what the user meant: tests what docs/explanation/segmentation.md
-// says about it, with all methods.
+// Input that is empty, or that is not what the user meant. Tests the statements of
+// docs/explanation/segmentation.md about such input, with all methods.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -28,16 +28,16 @@ class BadInput : public testing::TestWithParam<Method> {
     EXPECT_EQ(cut(again, again.first_cut).labels, s.cut.labels);
     return s;
   }
-  /// Checks that there are as many segments as objects. Supervoxels are pieces of objects, and
-  /// there may be more.
+  /// Checks that there are as many segments as objects. With method supervoxels, there may be more
+  /// segments, because they are pieces of objects.
   void expect_objects(const Segmentation& s, std::size_t objects) const {
     if (GetParam() == Method::supervoxels && objects > 0)
       EXPECT_GT(s.cut.segments.size(), objects);
     else
       EXPECT_EQ(s.cut.segments.size(), objects);
   }
-  /// The number of segments expected of a few isolated voxels: they form a supervoxel, but they are
-  /// too few for a segment of another method.
+  /// The number of segments expected from a few isolated voxels. With method supervoxels, they form
+  /// one segment. For the other methods, they are too few.
   std::size_t a_crumb() const { return GetParam() == Method::supervoxels ? 1 : 0; }
 };
 INSTANTIATE_TEST_SUITE_P(Methods, BadInput,
@@ -101,8 +101,8 @@ TEST_P(BadInput, NoPlane) {
 }
 
 TEST_P(BadInput, SeveralPlanes) {
-  // A shelf above the table: the plane with the most points is removed, and the other plane is a
-  // segment. The points of the shelf are so close to each other that their voxels touch.
+  // A shelf hangs above the table. The plane with the most points is removed, and the other plane
+  // is a segment. The points of the shelf are so dense that their voxels touch.
   const TableScene scene({{{-0.5, 0.2, 0.0}, {0.5, 0.45, 0.15}}, {{-0.1, -0.2, 0}, {0, -0.1, 0.1}}},
                          2);
   const Segmentation s = segmented(scene.xyz());
@@ -159,7 +159,7 @@ TEST_P(BadInput, MetresForMillimetresAreACrumb) {
 
 TEST_P(BadInput, AbsurdFocalLengths) {
   const std::vector<float> xyz = TableScene::two_boxes().xyz();
-  // Scales x and y, as a wrong focal length does.
+  // Scales x and y, as if the focal length were wrong.
   for (const double factor : {1e-9, 1e-3, 50.0, 1e3, 1e9}) {
     std::vector<float> stretched = xyz;
     for (std::size_t i = 0; i < stretched.size(); ++i)

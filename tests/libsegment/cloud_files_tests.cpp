@@ -25,7 +25,8 @@ std::vector<std::uint32_t> numbers(const Cloud& cloud, std::string_view name) {
   return values;
 }
 
-/// A cloud of 3 x 2 points with a hole, a colour that as a float is NaN and, if requested, labels.
+/// A cloud of 3 x 2 points with a hole, with a colour whose bits are a NaN as a float and, if
+/// requested, with labels.
 Cloud small_cloud(bool labelled) {
   std::vector<float> xyz(18, 1.5F);
   xyz[3] = xyz[4] = xyz[5] = test::kHole;
@@ -33,7 +34,7 @@ Cloud small_cloud(bool labelled) {
   const std::size_t rgb = cloud.add_field("rgb", FieldType::uint32);
   cloud.fields[rgb].type = FieldType::float32;
   for (std::size_t i = 0; i < 6; ++i) {
-    // As a float, this is NaN.
+    // As a float, these bits are a NaN.
     const std::uint32_t bits = 0xFFFFFF00U + static_cast<std::uint32_t>(i);
     std::memcpy(&cloud.data[i * cloud.stride + cloud.fields[rgb].offset], &bits, 4);
   }
@@ -97,7 +98,7 @@ TEST(WriteCloud, ReadsBackFromPcdAndPly) {
   EXPECT_THROW(write_cloud(folder / "a.txt", cloud, labels), Error);
 }
 
-/// A field of a cloud of one point: its name, its type and its value.
+/// The name, the type and the value of a field, for a cloud of one point.
 struct Column {
   std::string name;
   FieldType type;
@@ -152,8 +153,8 @@ TEST(CloudTerms, NormalsHaveTheNamesOfTheFormat) {
   EXPECT_EQ(names_in(ply), "x nx ny nz ");
   EXPECT_EQ(ply.data, one_point(pcd).data);
   EXPECT_EQ(names_in(in_terms_of(CloudFormat::pcd, ply)), "x normal_x normal_y normal_z ");
-  // With only one of the three names, the field is not a normal. Names that exist already are not
-  // used a second time.
+  // If only one of the three names exists, the field is not part of a normal. A name that already
+  // exists is not used again.
   EXPECT_EQ(names_in(in_terms_of(CloudFormat::pcd, one_point({{"nx", kSingle, 1}}))), "nx ");
   std::vector<Column> both = pcd;
   for (const char* name : {"nx", "ny", "nz"}) both.push_back({name, kSingle, 1});

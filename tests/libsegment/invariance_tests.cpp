@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Changes of the input that must not change the segmentation: the order of the points, duplicates,
-// powers of two, threads, holes.
+// Changes that must not change the segmentation: another order of the points, duplicates, scaling
+// by powers of two, threads, holes.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -64,8 +64,8 @@ TEST_P(Invariance, OrderOfThePoints) {
   }
 }
 
-// Uses method paper, because method surface takes the noise of depth into account, which does not
-// scale.
+// Uses method paper. Method surface takes the noise of depth into account, and this noise does not
+// scale with the scene.
 TEST(Scaling, PowersOfTwo) {
   const std::vector<float> xyz = cluttered();
   const SegmentOptions o{.method = Method::paper};

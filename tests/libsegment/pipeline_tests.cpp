@@ -30,8 +30,8 @@ TEST(Pipeline, TwoBoxesOnATable) {
   ASSERT_EQ(s.cut.segments.size(), 2U);
   ASSERT_EQ(s.cut.labels.size(), scene.truth().size());
 
-  // Counts the points of each box that rise above the plane by more than its thickness: exactly
-  // these are labelled.
+  // Counts the points of each box that are above the plane by more than its thickness. Exactly
+  // these points must be labelled.
   std::array<Index, 3> points{};
   for (std::size_t i = 0; i < s.cut.labels.size(); ++i) {
     const float* p = &scene.xyz()[3 * i];
@@ -48,7 +48,7 @@ TEST(Pipeline, TwoBoxesOnATable) {
   EXPECT_GT(s.cut.segments[1].centroid[0], 0.1);
   EXPECT_TRUE(std::isinf(s.cut.segments[0].persistence));
 
-  // The plane is the table: tilted by 45 degrees, one metre away.
+  // The plane must be the table, which is tilted by 45 degrees and one metre away.
   EXPECT_NEAR(s.tree.plane->normal[1], -std::sqrt(0.5), 1e-3);
   EXPECT_NEAR(s.tree.plane->offset, std::sqrt(0.5), 1e-3);
 }
@@ -67,7 +67,7 @@ TEST(Pipeline, StagesAndComplex) {
   EXPECT_EQ(static_cast<Index>(s.barcode.size()), s.tree.vertices.rows());
   EXPECT_EQ(s.tree.merge_tree.size(), s.tree.vertices.rows());
   EXPECT_GT(s.tree.edges, s.tree.vertices.rows());
-  // Every death is one of the ten levels.
+  // Checks that every death is one of the ten levels.
   for (const Bar& bar : s.barcode) {
     if (bar.is_infinite()) continue;
     const double level = bar.death / 0.025 * 10;
@@ -76,7 +76,7 @@ TEST(Pipeline, StagesAndComplex) {
 }
 
 TEST(Pipeline, BoxesThatNearlyTouchAreOneSegmentBeyondTheirGap) {
-  // The boxes are 40 mm apart: separate at 25 mm, joined at 60 mm.
+  // The boxes are 40 mm apart. They are separate at 25 mm and joined at 60 mm.
   const TableScene scene(
       {{{-0.12, -0.05, 0}, {-0.02, 0.05, 0.1}}, {{0.02, -0.05, 0}, {0.12, 0.05, 0.1}}});
   EXPECT_EQ(segment(CloudView{scene.xyz(), {}}, kPaper).cut.segments.size(), 2U);
@@ -187,7 +187,7 @@ TEST(Pipeline, TheViewpointDecidesWhichSideIsKept) {
       2U);
 }
 
-// Coordinates between other numbers are read in place.
+// If there are other numbers between the coordinates, the coordinates are read in place.
 TEST(Pipeline, AnyStride) {
   const TableScene scene = TableScene::two_boxes();
   const std::vector<float>& xyz = scene.xyz();

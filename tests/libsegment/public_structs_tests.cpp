@@ -75,8 +75,8 @@ TEST(PublicStructs, Clouds) {
                [&] { with_labels(cloud, std::vector<std::uint32_t>(1)); });
 }
 
-/// Each array of a scene and of its cut is validated: the test shortens each array and falsifies
-/// each number.
+/// All arrays of a scene and of its cut are validated. The test shortens each array and makes each
+/// number invalid.
 TEST(PublicStructs, ScenesAndCuts) {
   const Segmentation right = segment(CloudView{TableScene::two_boxes().xyz(), {}});
   ASSERT_EQ(right.cut.segments.size(), 2U);

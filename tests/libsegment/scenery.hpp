@@ -10,7 +10,7 @@
 /// Small scenes with known labels.
 namespace ph::segment::test {
 
-/// The name of a method, for the names of tests.
+/// The name of a method, for use in names of tests.
 inline const char* name_of(Method method) {
   return method == Method::paper ? "Paper" : method == Method::surface ? "Surface" : "Supervoxels";
 }
@@ -31,7 +31,7 @@ inline Cloud cloud_of(const std::vector<float>& xyz, Index width, Index height) 
   return cloud;
 }
 
-/// An object that rays may hit: a box aligned with the table.
+/// An object in the path of rays: a box whose sides are parallel to the table's axes.
 struct Block {
   Vec3 min, max;
 };
@@ -62,12 +62,13 @@ class TableScene {
   }
 
   const std::vector<float>& xyz() const { return xyz_; }
-  /// What each pixel shows: -1 is nothing, 0 the table, and 1… the blocks.
+  /// The object that each pixel shows: -1 for nothing, 0 for the table, and 1… for the blocks.
   const std::vector<int>& truth() const { return truth_; }
   Cloud cloud() const { return cloud_of(xyz_, width_, height_); }
 
  private:
-  /// Follows the ray through a pixel; u and v are counted from the middle of the picture.
+  /// Follows the ray through a pixel. u and v are the distances of the pixel from the middle of the
+  /// picture.
   void cast(double u, double v) {
     // The camera is at (0, -1/sqrt 2, 1/sqrt 2). Forward is (0, c, -c), down is (0, -c, -c), and
     // right is (1, 0, 0).

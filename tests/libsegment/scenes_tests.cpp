@@ -36,8 +36,8 @@ struct Means {
   std::vector<std::size_t> points;
 };
 
-/// For each voxel, the points that the earlier stages leave, computed from the definitions of the
-/// stages.
+/// For each voxel, the sum, the number and the indices of the points that the earlier stages leave,
+/// computed from the definitions of the stages.
 std::map<Cell, Means> voxels_of(const std::vector<float>& xyz, const Segmentation& s,
                                 const SegmentOptions& o) {
   std::map<Cell, Means> voxels;
@@ -55,7 +55,7 @@ std::map<Cell, Means> voxels_of(const std::vector<float>& xyz, const Segmentatio
   return voxels;
 }
 
-/// Single linkage by flooding over all pairs, without a tree or disjoint sets.
+/// Single linkage by flood fill over all pairs, without a tree or disjoint sets.
 std::vector<int> flood(const Points& vertices, double distance) {
   std::vector<int> component(static_cast<std::size_t>(vertices.rows()), -1);
   int count = 0;

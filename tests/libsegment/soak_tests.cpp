@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Segments a thousand frames: memory does not grow, and threads change nothing.
+// Segments a thousand frames. Memory must not grow, and threads must change nothing.
 #include <gtest/gtest.h>
 #include <malloc.h>
 
@@ -13,7 +13,7 @@ namespace {
 
 using test::TableScene;
 
-/// Small frames that all differ.
+/// Small frames, each of which is different.
 std::vector<std::vector<float>> frames(int count) {
   std::vector<std::vector<float>> result;
   for (int i = 0; i < count; ++i) {
@@ -27,7 +27,7 @@ std::vector<std::vector<float>> frames(int count) {
   return result;
 }
 
-// The bytes in use, and the bytes that the allocator holds from the system.
+// The bytes in use, and the bytes that the allocator has obtained from the system.
 struct Heap {
   double used, held;
 };

@@ -11,8 +11,8 @@
 
 namespace ph::segment::test {
 
-/// An upright wall on a circle or a part of it: a bowl, a cup, a bent sheet. Angles are in degrees,
-/// and an angle of 90 degrees points away from the sensor.
+/// An upright wall on a full circle or on an arc: a bowl, a cup, a bent sheet. Angles are in
+/// degrees. The direction of 90 degrees points away from the sensor.
 struct Vessel {
   double x = 0, y = 0, radius = 0.08, height = 0.06;
   double from = 0, to = 360;
@@ -22,8 +22,8 @@ struct Vessel {
 /// What a ray may hit.
 enum class Met { nothing, table, outside, inside, bottom, lid };
 
-/// Vessels without a bottom on a table at z = 0, seen at 45 degrees from a distance of one metre.
-/// The part of the table that is visible through an opening looks like a thin bottom.
+/// Vessels without a bottom on a table at z = 0, seen from a distance of one metre at an angle of
+/// 45 degrees. The part of the table that is visible through an opening looks like a thin bottom.
 class VesselScene {
  public:
   /// @param depth how far below the table the bottoms appear, as shiny bottoms do.

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // write_alpha_cases FILE COUNT LARGE: writes COUNT clouds of up to 300 points and LARGE clouds of
-// 10 000 points, each with the bars of its alpha complex in squared values, as one JSON object per
-// line. compare_alpha.py compares the bars with the bars from GUDHI. A cloud in a plane in space is
-// written as points of the plane, because some programs refuse it otherwise.
+// 10 000 points, one JSON object per line. Each object has a cloud and the bars of its alpha
+// complex in squared values. compare_alpha.py compares these bars with the bars from GUDHI. If the
+// points in space lie in a plane, they are written as points of this plane, because some programs
+// refuse them otherwise.
 #include <fmt/format.h>
 
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Writes random small inputs, each with the barcode that libph computes for it, and pairs of
-// diagrams with their distance, as one JSON object per line. compare.py compares these results with
-// the results of other programs.
+// Writes random small inputs, each with the barcode that libph computes, and pairs of diagrams with
+// their distances. Each line is a JSON object. compare.py compares these results with the results
+// of other programs.
 #include <cstdlib>
 #include <fstream>
 #include <iostream>
@@ -43,7 +43,8 @@ std::string bars(const Barcode& barcode) {
   return text + "]";
 }
 
-/// A distance that other programs can read, store in single precision and print without loss.
+/// A distance that other programs can read, store in single precision and print without a loss of
+/// digits.
 double distance(Generator& random, bool ties) {
   return ties ? random.integer(0, 4) : random.integer(1, 99999);
 }

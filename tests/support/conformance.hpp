@@ -58,7 +58,7 @@ std::vector<Pair> pairs_of(const Complex& complex, int max_dim, std::int64_t fie
       Options{.max_dim = max_dim, .field = field, .engine = engine, .min_persistence = -1}));
 }
 
-/// The pairs of positive length. A class that never dies is kept, whatever its birth.
+/// The pairs of positive length. Classes that never die are kept, whatever their births are.
 inline std::vector<Pair> of_positive_length(std::vector<Pair> pairs) {
   std::erase_if(pairs,
                 [](const Pair& p) { return !p.death_cell.empty() && p.bar.death == p.bar.birth; });
@@ -75,9 +75,9 @@ std::vector<typename F::Cell> sorted_cells(const F& f, int dim) {
   return cells;
 }
 
-/// Checks the range functions of a filtration for a cell: the cofacets up to one horizon after
-/// another, and the keys of cofacets one by one. They must equal the result of checking all
-/// cofacets, in the same order.
+/// Checks the range functions of a filtration for one cell. The cofacets are requested for one
+/// interval of keys after another, and the keys of cofacets are requested one by one. The results
+/// must equal the list of all cofacets, in the same order.
 template <RangeFiltration F>
 void check_ranges(const F& f, int dim, const typename F::Cell& cell) {
   using Key = decltype(f.key(cell));
@@ -178,8 +178,8 @@ void check_contract(const F& f, int top, std::int64_t field) {
   }
 }
 
-/// A view of a filtration that hides its apparent pairs. check_apparent_pairs compares these pairs
-/// with the pairs that a search of all facets and cofacets of the view finds.
+/// A view of a filtration that hides its apparent pairs. check_apparent_pairs compares the pairs of
+/// the filtration with the pairs found by a search through all facets and cofacets of the view.
 template <Filtration F>
 struct WithoutApparent {
   using Cell = typename F::Cell;
@@ -217,7 +217,7 @@ void check_apparent_pairs(const F& f, int top) {
     }
     if (dim == 0) continue;
     std::reverse(unmatched.begin(), unmatched.end());
-    // The cells are requested in several calls, as engines do.
+    // The cells are requested in several calls, as in the engines.
     auto cells = f.unmatched_cells(dim);
     for (std::size_t last = f.group_count(); last > 0; last -= std::min<std::size_t>(last, 3))
       cells.for_each(
@@ -227,8 +227,8 @@ void check_apparent_pairs(const F& f, int top) {
   }
 }
 
-/// Checks the Euler characteristic at every value: the alternating sum over all dimensions is the
-/// same for the numbers of cells and for the numbers of living bars.
+/// Checks the Euler characteristic at every value: the alternating sum of the numbers of cells must
+/// equal the alternating sum of the numbers of living bars.
 template <Filtration F>
 void check_euler(const F& f, const std::vector<Pair>& pairs) {
   std::map<double, long> change;
@@ -257,7 +257,7 @@ void check_engines(const F& f, int max_dim, std::int64_t field) {
     if (engine.can_run(f, Task{.max_dim = max_dim, .zero_length = true})) {
       EXPECT_EQ(pairs_of(f, max_dim, field, engine.id), oracle);
     }
-    // An engine may use another method if only some of the pairs are requested.
+    // If only some of the pairs are requested, an engine may use another method.
     if (engine.can_run(f, Task{.max_dim = max_dim})) {
       Options options{.max_dim = max_dim, .field = field, .engine = engine.id};
       const Barcode barcode = persistence(f, options);
@@ -273,7 +273,7 @@ void check_engines(const F& f, int max_dim, std::int64_t field) {
   }
 }
 
-/// Runs the suite for one filtration: checks its contract, and every engine over each field.
+/// Runs the suite on one filtration: checks its contract, and every engine over each field.
 template <Filtration F>
 void check(const F& f, int max_dim, std::initializer_list<std::int64_t> fields = {2, 3, 5}) {
   max_dim = std::min(max_dim, std::max(0, f.top_dim()));
@@ -287,7 +287,7 @@ void check(const F& f, int max_dim, std::initializer_list<std::int64_t> fields =
   }
 }
 
-/// Checks that the collapse, which removes edges, keeps the bars of positive length.
+/// Checks that the edge collapse keeps the bars of positive length.
 inline void check_collapse(const Rips& rips, int max_dim, std::int64_t field) {
   const auto bars = [&](const Rips& of, Engine engine, Collapse collapse) {
     return persistence(
@@ -301,7 +301,7 @@ inline void check_collapse(const Rips& rips, int max_dim, std::int64_t field) {
   }
 }
 
-/// Checks that the pairs of the planned form equal the pairs of all edges, cell by cell.
+/// Checks that the planned form gives the same pairs as the form with all edges, cell by cell.
 inline void check_forms(const Rips& rips, int max_dim, std::int64_t field) {
   const auto oracle = [&](int dim) {
     return with_all_edges(rips, dim,

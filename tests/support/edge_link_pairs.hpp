@@ -8,7 +8,7 @@
 
 namespace ph::test {
 
-/// The pairs from the sweep of edge links, computed by the code for large inputs.
+/// The pairs that the sweep of edge links finds with the code for large inputs.
 template <class F>
 std::vector<Pair> pairs_of_edge_links(const F& f, int max_dim, std::int64_t field,
                                       SweepTuning tuning, double min_persistence) {

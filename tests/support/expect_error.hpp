@@ -8,7 +8,7 @@
 
 namespace ph::test {
 
-/// Checks that `act` throws an Error of this kind with a message of one line that contains `part`.
+/// Checks that `act` throws an Error of this kind whose message has one line and contains `part`.
 template <class Act>
 void expect_error(ErrorKind kind, const std::string& part, Act&& act) {
   try {

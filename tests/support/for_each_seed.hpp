@@ -11,15 +11,15 @@
 
 namespace ph::test {
 
-/// The number of seeds to try: `count` times the environment variable PH_TEST_SEEDS, for example
-/// 0.02 for a quick look or 250 for a long search.
+/// The number of seeds to try. It is `count` times the environment variable PH_TEST_SEEDS, which
+/// may be 0.02 for a quick look or 250 for a long search, for example.
 inline int seeds(int count) {
   const char* times = std::getenv("PH_TEST_SEEDS");
   return times ? std::max(1, static_cast<int>(count * std::atof(times))) : count;
 }
 
-/// True if the cases that a random test is about have occurred more than `least` times. With
-/// reduced numbers of seeds, it is always true.
+/// True if the cases for which a random test was written have occurred more than `least` times. If
+/// the number of seeds is reduced, always true.
 template <class Count>
 bool is_enough(Count count, Count least) {
   return count > least || seeds(100) < 100;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-// Small, difficult inputs made from a sequence of choices: ties, duplicates, zeros, missing edges.
+// Small, difficult inputs that are made from a sequence of choices: ties, duplicates, zeros,
+// missing edges.
 #include <algorithm>
 #include <map>
 #include <random>
@@ -14,7 +15,7 @@
 
 namespace ph::test {
 
-/// Makes the choices from a pseudo-random sequence.
+/// Makes choices from a sequence of pseudo-random numbers.
 class RandomChoices {
  public:
   explicit RandomChoices(std::uint64_t seed) : engine_(seed) {}
@@ -35,7 +36,7 @@ class InputGenerator {
   int integer(int low, int high) { return choices_.integer(low, high); }
   bool coin() { return integer(0, 1) == 1; }
   double real() { return choices_.real(); }
-  /// A random value; from a small set if `ties` is true.
+  /// A random value. If `ties` is true, the value is one of a few.
   double value(bool ties) { return ties ? integer(0, 3) : real(); }
 
   Points points(Index n, Index d, bool ties) {
@@ -75,7 +76,7 @@ class InputGenerator {
     for (int k = 0; k < dim; ++k) options.periodic.push_back(integer(0, 2) == 0);
     return options;
   }
-  /// The faces of some random simplices. Each simplex enters with its youngest facet, or later.
+  /// The faces of some random simplices. Each simplex enters with its youngest facet or later.
   SimplexList simplices(Index vertices, int top_dim, int count, bool ties) {
     std::set<std::vector<Index>> all;
     for (int i = 0; i < count; ++i) {

@@ -19,11 +19,11 @@ struct ImageCase {
   int layers;  ///< the largest number of parts
 };
 
-/// The axes of an image that count for its parts. An axis of one voxel counts in the
-/// T-construction, if it is not periodic.
+/// The axes of an image that parts take into account. An axis of one voxel counts only in the
+/// T-construction, and only if it is not periodic.
 struct KeptAxes {
   int count = 0, layers = 0;
-  /// Number of periodic axes of one voxel, each of which adds a copy of every bar.
+  /// The number of periodic axes with one voxel. Each of them adds a copy of every bar.
   int copies = 0;
   bool closes = false;  ///< true if one of the kept axes is periodic
 };
@@ -42,8 +42,8 @@ inline KeptAxes kept_axes(const std::vector<Index>& extents, const CubicalOption
   return kept;
 }
 
-/// A random image of two or three axes, with ties, holes, infinities, axes of one voxel, periodic
-/// axes, and thresholds, for both constructions.
+/// A random image with two or three axes, for either construction. It may have ties, holes,
+/// infinities, axes of one voxel, periodic axes and a threshold.
 inline ImageCase random_image_case(Generator& random) {
   const int axes = random.integer(2, 3), most = axes == 2 ? 9 : 5;
   ImageCase result{{}, {}, 0};
@@ -67,9 +67,9 @@ inline ImageCase random_image_case(Generator& random) {
   return result;
 }
 
-/// A random image of four or five axes, in which voxels may also be absent. The bars are the
-/// components, or the bars of the highest dimension but one. The latter exist where low voxels
-/// surround high voxels.
+/// A random image with four or five axes, in which voxels may be absent. Requests either the
+/// components, or the bars of the second-highest dimension. To create bars of this dimension, low
+/// voxels surround high voxels.
 inline ImageCase random_case_of_many_axes(Generator& random) {
   const int axes = random.integer(0, 3) == 0 ? 5 : 4, most = axes == 4 ? 4 : 3;
   const bool has_hollows = random.coin();
@@ -122,7 +122,7 @@ inline std::vector<ImagePart> parts_of(const Image& image, int count,
   return parts;
 }
 
-/// Joins neighbouring parts in a random order until one is left. Now and then, a part is written to
+/// Joins neighbouring parts in a random order until one is left. Occasionally, a part is written to
 /// bytes and read back.
 inline ImagePart joined(Generator& random, std::vector<ImagePart> parts) {
   while (parts.size() > 1) {
@@ -138,7 +138,7 @@ inline ImagePart joined(Generator& random, std::vector<ImagePart> parts) {
   return std::move(parts[0]);
 }
 
-/// The first layers of `parts` parts of random sizes.
+/// Random first layers for `parts` parts, so that the parts have random sizes.
 inline std::vector<Index> random_first_layers(Generator& random, int layers, int parts) {
   std::vector<Index> first{0};
   for (int left = parts - 1; left > 0; --left) {
@@ -148,8 +148,8 @@ inline std::vector<Index> random_first_layers(Generator& random, int layers, int
   return first;
 }
 
-/// True if parts refuse the requested results. Parts of volumes refuse results that include or need
-/// bars of dimension 1.
+/// True if parts refuse the requested results. Parts of volumes refuse all requests that need bars
+/// of dimension 1.
 inline bool is_refused(const ImageCase& c) {
   try {
     ImagePart(c.image, 0, 1, c.options);

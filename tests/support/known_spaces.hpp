@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-// Spaces whose homology is in every textbook: triangulations given by their largest simplices,
-// finite metric spaces, images.
+// Spaces with well-known homology: triangulations given by their largest simplices, finite metric
+// spaces, images.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -37,8 +37,9 @@ inline Simplices projective_plane() {
           {1, 2, 4}, {2, 3, 5}, {3, 4, 1}, {4, 5, 2}, {5, 1, 3}};
 }
 
-/// A grid of n x n squares, each cut in two, whose opposite sides are glued: directly for a torus,
-/// or with one pair reversed for a Klein bottle. It is a simplicial complex if n is at least 4.
+/// A grid of n x n squares, each cut into two triangles, with opposite sides glued. For a torus,
+/// the sides are glued directly. For a Klein bottle, one pair is reversed. The result is a
+/// simplicial complex if n is at least 4.
 inline Simplices glued_grid(Index n, bool reversed) {
   const auto vertex = [&](Index i, Index j) {
     if (i >= n) {
@@ -70,8 +71,9 @@ inline Simplices simplex_boundary(int dim) {
   return s;
 }
 
-/// The boundary of the cross-polytope, a sphere of dimension `dim`: each largest simplex has one
-/// vertex of each of the dim + 1 opposite pairs 2k, 2k + 1. dim = 2 is the octahedron.
+/// The boundary of the cross-polytope, which is a sphere of dimension `dim`. There are dim + 1
+/// pairs of opposite vertices, 2k and 2k + 1, and each largest simplex has one vertex of each pair.
+/// For dim = 2, this is the octahedron.
 inline Simplices cross_polytope(int dim) {
   Simplices s;
   for (unsigned choice = 0; choice < (1U << (dim + 1)); ++choice) {
@@ -89,7 +91,8 @@ inline Index vertex_count(const Simplices& simplices) {
   return count;
 }
 
-/// The suspension: two cones over the same base. It shifts homology up by one dimension.
+/// The suspension: two cones over the same base. Its reduced homology is the reduced homology of
+/// the base, one dimension higher.
 inline Simplices suspension(const Simplices& base) {
   const Index north = vertex_count(base), south = north + 1;
   Simplices s;
@@ -102,8 +105,8 @@ inline Simplices suspension(const Simplices& base) {
   return s;
 }
 
-/// Two spaces that share only vertex 0. The homology above dimension 0 is the direct sum of the
-/// homology of both spaces.
+/// Two spaces that share only vertex 0. Above dimension 0, the homology is the direct sum of the
+/// homologies of the two spaces.
 inline Simplices wedge(const Simplices& a, const Simplices& b) {
   Simplices s = a;
   const Index shift = vertex_count(a) - 1;
@@ -121,12 +124,12 @@ inline ExplicitComplex filtered(const Simplices& simplices, std::span<const doub
   for (const auto& simplex : simplices) list.add(simplex, 0);
   return lower_star(list, values);
 }
-/// The whole space, entering at value 0.
+/// The whole space. All its cells enter at value 0.
 inline ExplicitComplex all_at_once(const Simplices& simplices) {
   const std::vector<double> zeros(static_cast<std::size_t>(vertex_count(simplices)), 0.0);
   return filtered(simplices, zeros);
 }
-/// The space built vertex by vertex: vertex i enters at i.
+/// The space built vertex by vertex. Vertex i enters at i.
 inline ExplicitComplex vertex_by_vertex(const Simplices& simplices) {
   std::vector<double> values(static_cast<std::size_t>(vertex_count(simplices)));
   std::iota(values.begin(), values.end(), 0.0);
@@ -150,8 +153,9 @@ inline double chord(Index n, Index steps) {
   return 2 * std::sin(std::numbers::pi * static_cast<double>(steps) / static_cast<double>(n));
 }
 
-/// The points of a grid with integer coordinates, columns x rows, on a flat torus or Klein bottle.
-/// The distance is the largest difference of coordinates, measured the shortest way round.
+/// The points of a grid of columns x rows with integer coordinates, on a flat torus or a flat Klein
+/// bottle. The distance is the larger difference of coordinates, where each difference is measured
+/// the shorter way round.
 struct FlatSurface {
   Index columns, rows;
   bool reversed = false;  ///< going once around the columns flips the rows: a Klein bottle

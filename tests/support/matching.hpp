@@ -9,10 +9,10 @@
 
 namespace ph::test {
 
-/// Checks that two barcodes can be matched such that, in each pair, the late bar is born no earlier
-/// than the early bar and no later than latest(birth of the early bar). The same must hold for the
-/// deaths. Only bars that die by latest(birth) may be left out of either barcode. @return what is
-/// wrong; empty if they can be matched.
+/// Checks that two barcodes can be matched. In each pair, the late bar must be born no earlier than
+/// the early bar, and no later than latest(birth of the early bar). The same must hold for the
+/// deaths. A bar of either barcode may stay unmatched only if it dies no later than latest(its
+/// birth). @return what is wrong; empty if the barcodes can be matched.
 /// @param latest a function that never decreases; a small tolerance is added for rounding.
 inline std::string late_matching_fault(const Barcode& early, const Barcode& late, int dim,
                                        const std::function<double(double)>& latest) {
@@ -23,8 +23,8 @@ inline std::string late_matching_fault(const Barcode& early, const Barcode& late
   const auto fits = [&](const Bar& a, const Bar& b) {
     return is_late(a.birth, b.birth) && is_late(a.death, b.death);
   };
-  // A matching that covers the required early bars, and another that covers the required late bars,
-  // can be combined into one matching that covers both (Mendelsohn & Dulmage 1958).
+  // Two matchings are found: one covers the required early bars, and the other covers the required
+  // late bars. They can be combined into one matching that covers both (Mendelsohn & Dulmage 1958).
   const auto uncovered = [&](const auto& bars, const auto& others, auto&& are_matched) {
     std::vector<int> partner(others.size(), -1);
     std::vector<bool> seen;

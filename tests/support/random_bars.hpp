@@ -10,8 +10,8 @@ namespace ph::test {
 
 using Bars = std::vector<Bar>;
 
-/// @param steps 0 for any numbers in [-1, 1]; otherwise whole numbers from 0 to `steps`, with ties
-/// and bars of length 0.
+/// Random bars. @param steps if 0, births and deaths are any numbers in [-1, 1]; otherwise whole
+/// numbers from 0 to `steps`, with ties and bars of length 0.
 inline Bars random_bars(std::mt19937& random, std::size_t count, int steps = 0) {
   const auto number = [&] {
     if (steps > 0) return static_cast<double>(std::uniform_int_distribution<>(0, steps)(random));

@@ -31,8 +31,8 @@ inline std::vector<std::uint8_t> base64_decoded(std::string_view text) {
   return bytes;
 }
 
-/// The numbers in the element of a report that stores an array, as the page reads them.
-/// @throws std::runtime_error if there are not exactly `count`.
+/// The numbers in the HTML element of a report that stores an array, read as the page reads them.
+/// @throws std::runtime_error unless there are exactly `count` numbers.
 template <class T>
 std::vector<T> numbers_of(const std::string& element, std::size_t count, std::size_t columns) {
   const std::size_t begin = element.find('>') + 1, end = element.rfind("</script>");

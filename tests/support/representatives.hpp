@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-// Checks by the definitions that a chain represents a bar.
+// Checks by the definitions that a chain is a representative of a bar.
 #include "tests/support/conformance.hpp"
 
 namespace ph::test {
 
-/// A chain of cells of one dimension, which are named by their positions in the order; coefficients
-/// are 1 … p-1.
+/// A chain of cells of one dimension. Each cell is named by its position in the order, and the
+/// coefficients are 1 … p-1.
 using PositionChain = std::map<std::size_t, std::int64_t>;
 
-/// The cells of a filtration in order, and their boundaries as chains of positions, for each
-/// dimension.
+/// The cells of a filtration in order, and their boundaries as chains of positions. Both are stored
+/// separately for each dimension.
 template <Filtration F>
 class OrderedCells {
  public:
@@ -57,7 +57,7 @@ class OrderedCells {
   /// True if the chain of dimension `dim` is the boundary of a chain of the first `cofaces` cells
   /// of dimension dim + 1.
   bool is_boundary(PositionChain chain, int dim, std::size_t cofaces) const {
-    std::map<std::size_t, PositionChain> reduced;  // by their youngest cells
+    std::map<std::size_t, PositionChain> reduced;  // the key is the youngest cell
     const auto reduce = [&](PositionChain& c) {
       while (!c.empty() && reduced.contains(c.rbegin()->first)) {
         const PositionChain& r = reduced.at(c.rbegin()->first);
@@ -89,7 +89,7 @@ class OrderedCells {
   std::vector<Level> levels_;
 };
 
-/// The representative of a bar, which must have no boundary (or coboundary).
+/// The representative of a bar. Checks that it has no boundary (or coboundary).
 template <Filtration F>
 PositionChain closed_cycle(const OrderedCells<F>& cells, const Barcode& bars, std::size_t i) {
   const int dim = bars[i].dim;
@@ -101,8 +101,8 @@ PositionChain closed_cycle(const OrderedCells<F>& cells, const Barcode& bars, st
   return cycle;
 }
 
-/// Checks a cycle: it has no boundary, its youngest cell is the birth cell, and it first becomes a
-/// boundary at the death.
+/// Checks a cycle: it has no boundary, its youngest cell is the birth cell, and it becomes a
+/// boundary at the death, not earlier.
 template <Filtration F>
 void check_cycle(const OrderedCells<F>& cells, const Barcode& bars, std::size_t i) {
   const int dim = bars[i].dim;
@@ -117,8 +117,8 @@ void check_cycle(const OrderedCells<F>& cells, const Barcode& bars, std::size_t 
   }
 }
 
-/// Checks a cocycle: it is zero before the birth, and its coboundary is first non-zero at the
-/// death.
+/// Checks a cocycle: it is zero before the birth, and its coboundary becomes non-zero at the death,
+/// not earlier.
 template <Filtration F>
 void check_cocycle(const OrderedCells<F>& cells, const Barcode& bars, std::size_t i) {
   const int dim = bars[i].dim;
@@ -135,8 +135,8 @@ void check_cocycle(const OrderedCells<F>& cells, const Barcode& bars, std::size_
   }
 }
 
-/// Checks all representatives from every engine that computes representatives, even for bars of
-/// length 0. The bars must equal the bars of the oracle.
+/// Checks all representatives from every engine that computes representatives. Bars of length 0 are
+/// included. The bars must equal the bars of the oracle.
 template <Filtration F>
 void check_representatives(const F& f, int max_dim, std::int64_t field) {
   max_dim = std::min(max_dim, std::max(0, f.top_dim()));

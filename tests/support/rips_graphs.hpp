@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-// The graphs of a Rips filtration, for tests that look at edges.
+// The graphs of a Rips filtration, for tests that examine edges.
 #include <utility>
 
 #include "ph/detail/rips/rips_filtration.hpp"
@@ -16,7 +16,7 @@ inline const RipsGraph& planned_graph(const Rips& rips, const Options& options) 
   return rips.graph(*plan(rips, options).form);
 }
 
-/// Calls `use` with the filtration of all edges: dense, sparse or wide.
+/// Calls `use` with the filtration of all edges, which may be dense, sparse or wide.
 template <class Use>
 decltype(auto) with_all_edges(const Rips& rips, int max_dim, Use&& use) {
   return with_rips_filtration(all_edges(rips), max_dim, std::forward<Use>(use));

@@ -23,8 +23,8 @@ namespace ph::test {
 /// What may happen to a message.
 enum class Mishap { none, lost, doubled, swapped, changed };
 
-/// Ranks that are threads of this process. Messages wait in queues, and random delays decide which
-/// rank is late.
+/// Ranks that are threads of this process. Messages wait in queues. Random delays decide which rank
+/// falls behind.
 class ThreadRanks {
  public:
   using Bytes = std::vector<std::byte>;
@@ -33,15 +33,15 @@ class ThreadRanks {
   ThreadRanks(int size, std::mt19937* delays) : size_(size) {
     for (int i = 0; i < size && delays != nullptr; ++i) naps_.push_back((*delays)());
   }
-  /// Plans a mishap for the message with this number, counted over all ranks.
+  /// Plans a mishap for one message. Messages are numbered over all ranks.
   void plan(Mishap mishap, int message) {
     mishap_ = mishap;
     unlucky_ = message;
   }
   bool has_happened() const { return has_happened_; }
 
-  /// Runs all ranks to their end. @throws the error of the first rank that fails; the other ranks
-  /// are told to stop.
+  /// Runs all ranks until they end. If a rank fails, the others are told to stop. @throws the error
+  /// of the first rank that fails.
   void run(const std::function<void(Transport&)>& rank) {
     std::vector<std::thread> threads;
     std::exception_ptr failure;
@@ -81,7 +81,8 @@ class ThreadRanks {
     const int rank_;
   };
 
-  /// Delays a rank. Each rank has its own random numbers, because threads cannot share a generator.
+  /// Delays a rank. Each rank has a random generator of its own, because threads cannot share a
+  /// generator.
   void nap(int rank) {
     if (naps_.empty()) return;
     std::uint_fast32_t& state = naps_[static_cast<std::size_t>(rank)];

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-// Checks sets of voxels that represent bars of images, by flood fill from the definition.
+// Checks sets of voxels that represent bars of images. The expected sets are found by flood fill
+// from the definition.
 #include <cstdlib>
 #include <set>
 
@@ -11,8 +12,8 @@ namespace ph::test {
 using Place = std::size_t;
 using PlaceSet = std::set<Place>;
 
-/// An image as a graph of its voxels and of the outside. The outside has two nodes if exactly one
-/// axis is not periodic, and otherwise one.
+/// An image as a graph. Its nodes are the voxels and the outside. If exactly one axis is not
+/// periodic, the outside has two nodes, and otherwise one.
 class VoxelNeighbours {
  public:
   VoxelNeighbours(const std::vector<Index>& extents, std::vector<bool> periodic,
@@ -47,10 +48,10 @@ class VoxelNeighbours {
     return result;
   }
 
-  /// The nodes that can be reached from `from` through nodes for which `open` returns true. The
-  /// result includes `from` if it is open, and is empty otherwise.
-  /// @param wide true if voxels that share a corner are neighbours; otherwise, they must share a
-  /// facet.
+  /// The nodes that can be reached from `from` through open nodes, that is, nodes for which `open`
+  /// returns true. Includes `from`. Empty if `from` is not open.
+  /// @param wide if true, voxels that share a corner are neighbours; if false, only voxels that
+  /// share a facet.
   template <class IsOpen>
   PlaceSet flood(Place from, bool wide, IsOpen&& open) const {
     PlaceSet met;
@@ -113,8 +114,8 @@ class VoxelNeighbours {
   int open_axes_ = 0;
 };
 
-/// Checks representatives when sets of voxels are requested: which bars have a set, and its voxels.
-/// The other bars have a cycle.
+/// Checks the representatives if sets of voxels are requested: which bars have a set, and which
+/// voxels are in each set. The other bars have a cycle.
 inline void check_voxel_sets(const Image& image, const CubicalOptions& options, const Barcode& bars,
                              std::int64_t field) {
   const VoxelNeighbours grid(image.extents, options.periodic, options.construction);
@@ -146,8 +147,8 @@ inline void check_voxel_sets(const Image& image, const CubicalOptions& options, 
       }));
       continue;
     }
-    // Among the classes that surround something, only those that are never filled may have a set
-    // without voxels.
+    // Only classes of the highest dimension but one can surround voxels. If such a class is never
+    // filled, its set may still be empty, and then the bar has a cycle.
     const bool may_be_hollow = !grid.has_loop() && bar.dim == grid.axes() - 1;
     if (!may_be_hollow || (bar.is_infinite() && has_chain)) {
       EXPECT_TRUE(found.empty());
@@ -159,8 +160,8 @@ inline void check_voxel_sets(const Image& image, const CubicalOptions& options, 
     const auto is_open = [&](Place p) {
       return p >= grid.size() || !enters(p) || value(p) > bar.birth;
     };
-    // A void that is never filled contains voxels that never enter. Otherwise, it contains the
-    // outside beyond one end of an axis, but not the outside beyond the other end.
+    // A void that is never filled contains a voxel that never enters, or the outside beyond one end
+    // of an axis. It does not contain the outside beyond the other end.
     const Place beyond = grid.outside(is_vertices), other = grid.outside(!is_vertices);
     const Place inside = bar.is_infinite() ? *found.begin() : grid.place(bars.death_voxel(i));
     PlaceSet filled = grid.flood(inside, is_vertices, is_open);

@@ -7,7 +7,7 @@
 
 namespace ph::test {
 
-/// A wrong value, and what the message says about it.
+/// A wrong value, and a part of the message about it.
 struct Case {
   const char* name;
   ErrorKind kind;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Tests the library when memory runs out at any moment: the library throws std::bad_alloc or Error
-// (resource), leaks nothing, and leaves no file half written.
+// Tests what the library does if memory runs out at any moment: it throws std::bad_alloc or Error
+// (resource), leaks nothing, and leaves no incomplete file.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -62,8 +62,8 @@ void* allocate_or_null(std::size_t size) noexcept {
 
 }  // namespace
 
-// All forms of new and delete are replaced, because a sanitizer would supply the missing ones and
-// bypass these counters.
+// Replaces all forms of new and delete. Otherwise a sanitizer would supply the missing forms, and
+// these would bypass the counters.
 using Align = std::align_val_t;
 using NoThrow = std::nothrow_t;
 void* operator new(std::size_t size) { return allocate(size, 1); }
@@ -88,7 +88,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A folder with small inputs. Its folder "out" has the files of the last run.
+/// Creates a folder with small inputs. Its folder "out" has the files of the last run.
 class Allocation : public testing::Test {
  protected:
   using Files = std::map<std::string, std::string>;
@@ -113,7 +113,7 @@ class Allocation : public testing::Test {
   void put(const std::string& name, const std::string& text) const {
     std::ofstream(in(name), std::ios::binary) << text;
   }
-  /// The content of the files that a run left behind, which are then removed.
+  /// Returns the contents of the files that a run has left behind, and removes the files.
   Files outputs() const {
     Files files;
     for (const auto& entry : fs::directory_iterator(folder_ / "out")) {
@@ -125,9 +125,9 @@ class Allocation : public testing::Test {
     return files;
   }
 
-  /// Runs with the chosen allocations failing. @param at the number of a single allocation that
-  /// fails.
-  /// @param from the number from which on every allocation fails.
+  /// Runs while some allocations fail.
+  /// @param at the number of a single allocation that fails; 0 for none.
+  /// @param from all allocations from this number on fail; 0 for none.
   /// @return true if the run finished.
   static bool survives(const std::function<void()>& run, long at, long from) {
     fail_at = at;
@@ -152,7 +152,7 @@ class Allocation : public testing::Test {
     return done;
   }
 
-  /// Makes each allocation of a run fail, once alone and once together with all later ones.
+  /// Makes each allocation of a run fail, once alone and once together with all later allocations.
   void check(const std::function<void()>& run) {
     run();  // creates the objects that exist once per process
     outputs();
@@ -161,8 +161,8 @@ class Allocation : public testing::Test {
     const Files want = outputs();
     ASSERT_GT(total, 10) << "the library allocates elsewhere";
     RecordProperty("allocations", static_cast<int>(total));
-    // Tests every allocation if there are few. Otherwise the step is odd, because an even step
-    // could miss the same allocations in every round of a loop.
+    // If there are few allocations, tests all of them. Otherwise the step is odd: if a loop makes
+    // an even number of allocations, an even step could miss the same allocations in every round.
     const long step = total <= 4000 ? 1 : total / 2000 | 1;
     for (const bool once : {true, false}) {
       for (long n = 1; n <= total; n += step) {

@@ -138,7 +138,7 @@ TEST(Lines, AreBrokenAtBlanksAndBars) {
   EXPECT_EQ(shell_quoted("it's"), "'it'\\''s'");
 }
 
-// Creates a separate folder with one file, "input".
+// Creates a separate folder that contains one file, "input".
 class Files : public testing::Test {
  protected:
   void SetUp() override {
@@ -193,7 +193,7 @@ TEST_F(Files, TwoOutputsAreTwoFiles) {
   EXPECT_EQ(kind({{"--output", at("a")}, {"--report", at("b")}}), none);
   EXPECT_EQ(kind({{"--output", at("a")}, {"--report", at("folder/a")}}), none);
   EXPECT_EQ(kind({{"--output", at("a")}, {"--report", at("folder/../a")}}), ErrorKind::usage);
-  // Outputs in a folder that a batch will create.
+  // The outputs are in a folder that the batch will create.
   EXPECT_EQ(kind({{"--output", at("new/a")}, {"--report", at("new/b")}}), none);
   EXPECT_EQ(kind({{"--output", at("new/a")}, {"--report", at("new/deep/a")}}), none);
   EXPECT_EQ(kind({{"--output", at("new/a")}, {"--report", at("folder/../new/./a")}}),

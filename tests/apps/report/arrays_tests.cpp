@@ -71,7 +71,7 @@ MergeTree path_tree(std::vector<double> births) {
   return tree;
 }
 
-/// The partition that the page computes for a cut: for each vertex, the smallest leaf of its
+/// The partition that the page computes for a cut. Each vertex gets the smallest leaf of its
 /// segment.
 std::vector<std::uint32_t> page_cut(const MergeTree& tree, const ContractedTree& contracted,
                                     CutRule rule, double cut) {
@@ -164,7 +164,7 @@ TEST(Trees, TheLeastCutKeepsNoMoreThanAskedFor) {
     }
   EXPECT_EQ(least_cut(tree, CutRule::persistence, 100), 6);
   EXPECT_EQ(least_cut({}, CutRule::value, 1), 0);
-  // The cuts on a page are finite.
+  // All cuts on a page are finite.
   const MergeTree infinite = path_tree({-kInfinity, 3, -kInfinity, 5, 1});
   EXPECT_EQ(least_cut(infinite, CutRule::persistence, 100), 4);
   EXPECT_EQ(least_cut(path_tree({-kInfinity, 3, -kInfinity}), CutRule::persistence, 100), 1);
@@ -172,13 +172,14 @@ TEST(Trees, TheLeastCutKeepsNoMoreThanAskedFor) {
 
 TEST(TouchingLeaves, AreBesideEachOtherInThePicture) {
   constexpr std::uint32_t none = kNone;
-  // Two rows of twelve pixels; the second row lacks its first pixel.
+  // There are two rows of twelve pixels. Some pixels are missing, among them the first pixel of the
+  // second row.
   const std::vector<std::uint32_t> index = {0,  1,  2,  3,  11, 13, 14, 15,
                                             16, 17, 18, 19, 20, 21, 22, 23};
   const std::vector<std::uint32_t> leaf = {5,    5,    none, 1,    2,    5,    none, none,
                                            none, none, none, none, none, none, 7,    2};
-  // Leaves 1 and 2 are eight columns apart, 5 and 7 nine columns. Leaves 2 and 7 touch. Leaf 1 has
-  // no neighbour below.
+  // Leaves 1 and 2 are eight columns apart, and leaves 5 and 7 are nine columns apart. Leaves 2 and
+  // 7 are neighbours. Leaf 1 has no neighbour in the row below.
   EXPECT_EQ(touching_in_picture(index, leaf, 12), (std::vector<std::uint32_t>{1, 2, 1, 5, 2, 7}));
   // The last pixel of a row does not touch the first pixel of the next row.
   const std::vector<std::uint32_t> ends = {11, 12}, two = {0, 1};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Tests how a report is written: its encodings, its metadata, its page. Reports of the programs are
-// tested in barcode_report.py, barcode_report_data.py and segment_report.py.
+// Tests how a report is written: its encodings, its metadata and its page. The reports that
+// programs write are tested in barcode_report.py, barcode_report_data.py and segment_report.py.
 #include <gtest/gtest.h>
 
 #include <cstring>

@@ -46,7 +46,8 @@ class DepthImages : public test::Program {
   void write(const std::string& name, const std::string& bytes) const {
     std::ofstream(at(name), std::ios::binary) << bytes;
   }
-  /// Writes camera_info of the scene's camera for an image that is `times` as large.
+  /// Writes a camera_info file with the scene's camera, for an image that has `times` as many
+  /// pixels along each axis.
   void write_camera(const std::string& name, int times, const std::string& d = "0, 0, 0, 0, 0",
                     const std::string& model = "plumb_bob", int more_rows = 0) const {
     const auto text = [](double x) { return std::to_string(x); };
@@ -71,7 +72,7 @@ TEST_F(DepthImages, AreTheSameInAllFormats) {
   EXPECT_TRUE(notes("2 segments")) << err();
   for (const char* input : {"d.pgm", "i.npy", "--depth d.pgm", "--depth i.npy"})
     EXPECT_EQ(labels(input + intrinsics_), expected) << input;
-  // As floats, the depths are rounded to slightly different numbers.
+  // As floats, the depths are rounded and therefore slightly different.
   const std::string of_floats = labels("f.npy" + intrinsics_);
   EXPECT_TRUE(notes("2 segments")) << err();
   EXPECT_EQ(labels("f.npy --depth-scale 1" + intrinsics_), of_floats);

@@ -105,7 +105,7 @@ TEST_F(Program, ACloudHasALegend) {
   std::map<int, int> points;
   for (int label = 0; labels >> label;) ++points[label];
   ASSERT_EQ(points.size(), 3U);
-  // The number is written once on the picture and once below it.
+  // Each number is written twice: in the picture and below it.
   for (const char* number : {">1</text>", ">2</text>"}) {
     const std::size_t first = svg.find(number);
     ASSERT_NE(first, std::string::npos) << number;

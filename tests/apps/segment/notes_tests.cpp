@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The notes of ph-segment: lengths or a camera that the user cannot have meant, and options without
-// an effect.
+// The notes of ph-segment, which warn of lengths or cameras that the user cannot have meant, and of
+// options without an effect.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -76,7 +76,7 @@ TEST_F(Notes, DepthImages) {
   EXPECT_EQ(run("scene.pcd " + camera), 64);
 }
 
-/// The scene in a robot's frame: z up, the table at 0.75 m.
+/// Uses the coordinates of a robot: z points up, and the table is at 0.75 m.
 TEST_F(Notes, AnotherFrame) {
   const double c = std::sqrt(0.5);
   const std::vector<float>& xyz = scene_.xyz();
@@ -113,7 +113,7 @@ TEST_F(Notes, AnotherFrame) {
   EXPECT_TRUE(notes("2 segments")) << err();
 }
 
-/// The pipeline uses only one thread; signatures use several.
+/// The pipeline uses only one thread, but signatures use several threads.
 TEST_F(Notes, ThreadsAreForSignatures) {
   ASSERT_EQ(run("scene.pcd --threads 2 --json a.json"), 0) << err();
   EXPECT_TRUE(notes("--threads does nothing: ")) << err();
@@ -160,8 +160,8 @@ TEST_F(Notes, TheSmallerMarginOfThePlaneGoesFirst) {
   }
 }
 
-/// The message names only options of the chosen method: --distance belongs to method paper, and the
-/// other methods refuse it.
+/// The message names only options of the chosen method. The option --distance belongs to method
+/// paper, and is refused by the other methods.
 TEST_F(Notes, OutOfMemoryNamesOptionsOfTheMethod) {
   for (const char* method : {"surface", "supervoxels", "paper"}) {
     const std::string options = std::string("scene.pcd --plane off --voxel 0.0005 --method ") +

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Runs ph-segment as a user does: options, stored trees, exit codes, messages.
+// Runs ph-segment as users do: options, stored trees, exit codes, messages.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -108,8 +108,8 @@ TEST_F(Program, OptionsThatSayTheSameAreNoContradiction) {
 }
 
 TEST_F(Program, ASignatureWithoutMemoryIsNullAndTheRestIsThere) {
-  // Grouped by distance, specks in the corners of a large cube form a single segment, whose box is
-  // far too large.
+  // There are specks in the corners of a large cube. Grouped by distance, they form a single
+  // segment, whose box is far too large.
   std::ofstream points(at("corners.xyz"));
   for (int i = 0; i < 400; ++i)
     points << 2.0 * (i % 2) << ' ' << 2.0 * (i / 2 % 2) << ' ' << 2.0 * (i / 4 % 2) + 1e-4 * i

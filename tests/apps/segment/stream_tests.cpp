@@ -91,7 +91,7 @@ TEST_F(Stream, APipeThatDoesNotWaitHasNoEndYet) {
   std::array<int, 2> ends{};
   ASSERT_EQ(pipe(ends.data()), 0);
   fcntl(ends[0], F_SETFL, O_NONBLOCK);
-  // Without this flag, the program would inherit this end and keep the pipe open.
+  // Without this flag, the program would inherit this end of the pipe and keep it open.
   fcntl(ends[1], F_SETFD, FD_CLOEXEC);
   std::thread writer([&] {
     for (const std::string_view some : {"in/0.p", "cd\nin/", "1.pcd\nin/2.pcd"}) {
@@ -135,7 +135,7 @@ TEST_F(Stream, AFailureDoesNotStopTheOthers) {
 }
 
 TEST_F(Stream, StableLabels) {
-  // The label of the first segment, which has the most points.
+  // The label of the first segment, which is the segment with the most points.
   const auto first_label = [](const std::string& line) {
     const std::string before = "\"segments\": [{\"label\": ";
     return line[line.find(before) + before.size()];
@@ -165,7 +165,7 @@ TEST_F(Stream, FramesOfOneNameAreNumbered) {
   for (const char* name : {"0", "0-2", "0-3", "0-4", "0-5"})
     EXPECT_TRUE(fs::exists(at("out/" + std::string(name) + ".npy"))) << name;
   EXPECT_EQ(std::distance(fs::directory_iterator(at("out")), {}), 5);
-  // Without a file per frame, inputs of the same name are allowed.
+  // If there is no output file per frame, several inputs may have the same name.
   EXPECT_EQ(run("in/0.pcd other/0.pcd in/0.pcd --json all.json"), 0) << err();
 }
 
@@ -177,7 +177,7 @@ TEST_F(Stream, AThousandFramesTakeNoMoreMemoryThanSome) {
   std::ofstream list(at("list.txt"));
   constexpr std::size_t frames = 1200;
   for (std::size_t i = 0; i < frames; ++i) {
-    std::string path(2 * 500, '/');  // the same file under a long name, which differs each time
+    std::string path(2 * 500, '/');  // a long name of the same file, made of "./"
     for (std::size_t k = 0; k < path.size(); k += 2) path[k] = '.';
     list << path << "s.pcd" << '\n';
   }

@@ -14,7 +14,7 @@ using Labels = std::vector<std::uint32_t>;
 TEST(LabelTracker, AnObjectKeepsItsNumber) {
   LabelTracker tracker;
   EXPECT_EQ(tracker.update(Labels{1, 1, 1, 0, 2, 2}), (Labels{1, 1, 1, 0, 2, 2}));
-  // The order of the segments by size changes, but their numbers do not.
+  // The order of the segments by size changes, but the segments keep their numbers.
   EXPECT_EQ(tracker.update(Labels{2, 2, 0, 1, 1, 1}), (Labels{1, 1, 0, 2, 2, 2}));
   // A new object gets the number 3, although it is the largest.
   EXPECT_EQ(tracker.update(Labels{3, 1, 1, 1, 2, 2}), (Labels{1, 3, 3, 3, 2, 2}));
@@ -24,10 +24,10 @@ TEST(LabelTracker, AnObjectKeepsItsNumber) {
 TEST(LabelTracker, NoObjectIsTakenTwice) {
   LabelTracker tracker;
   tracker.update(Labels{1, 1, 1, 1, 1, 1});
-  // The object splits: its larger part keeps the number.
+  // If an object splits, its larger part keeps the number.
   EXPECT_EQ(tracker.update(Labels{2, 2, 1, 1, 1, 1}), (Labels{2, 2, 1, 1, 1, 1}));
-  // The objects merge again: the merged object gets the number of the object with which it shares
-  // more points.
+  // If the objects merge again, the result gets the number of the object with which it shares more
+  // points.
   EXPECT_EQ(tracker.update(Labels{7, 7, 7, 7, 7, 7}), (Labels{1, 1, 1, 1, 1, 1}));
 }
 
@@ -56,8 +56,8 @@ TEST(LabelTracker, LabelsAreNumbersAsTheyLike) {
   EXPECT_EQ(tracker.update(Labels{1, 1, 0, 2, 2, 2}), (Labels{2, 2, 0, 1, 1, 1}));
 }
 
-/// A frame of two rows: the label and the surface of each point (surfaces are numbered from 2,
-/// because surface 1 was removed), and what each segment stands on.
+/// A frame of two rows. It has the label and the surface of each point, and the surface or segment
+/// on which each segment stands. Surfaces are numbered from 2, because surface 1 was removed.
 struct Frame : Segmentation {
   Frame(const Labels& drawn, std::vector<std::uint8_t> found, std::vector<Standing> standing,
         std::vector<Role> roles = {Role::wall}) {
@@ -146,7 +146,7 @@ TEST(LabelTracker, WhatAnObjectStandsOnIsNamedAsInTheFrame) {
   const Frame alone({0, 0, 1, 0, 0, 0, 1, 0}, kNoWall, {kNowhere});
   EXPECT_EQ(tracker.update(alone.tree, alone.cut), Labels{2});
   EXPECT_EQ(tracker.standings(), (std::vector<Standing>{{Role::object, {}}}));
-  // The same holds if the surface has another role now, or has disappeared.
+  // The current frame also decides if the surface now has another role, or has disappeared.
   const Frame on_board({1, 1, 0, 0, 1, 1, 0, 0}, {0, 0, 2, 2, 0, 0, 2, 2}, {{Role::object, {2, 0}}},
                        {Role::support});
   const Frame by_wall({1, 1, 0, 0, 1, 1, 0, 0}, {0, 0, 2, 2, 0, 0, 2, 2}, {kOnTable});
@@ -175,8 +175,8 @@ TEST(LabelTracker, AMovingScene) {
   LabelTracker pixels, voxels;
   for (int frame = 0; frame < 6; ++frame) {
     const double x = 0.01 * frame;
-    // The right box grows until it has more points than the left one: the labels, which go by size,
-    // are swapped.
+    // The right box grows until it has more points than the left box. Labels are sorted by size, so
+    // they are swapped then.
     const double more = 0.02 * frame;
     const test::TableScene scene({{{-0.22 + x, -0.05, 0}, {-0.10 + x, 0.07, 0.12}},
                                   {{0.10, -0.05, 0}, {0.2 + more, 0.05, 0.1}}});
@@ -186,7 +186,7 @@ TEST(LabelTracker, AMovingScene) {
     const bool right_first = s.cut.segments[0].centroid[0] > 0;
     const Labels expected = right_first ? Labels{2, 1} : Labels{1, 2};
     EXPECT_EQ(pixels.update(s.tree, s.cut), expected) << frame;
-    s.tree.width *= s.tree.height, s.tree.height = 1;  // makes it look like an unorganised cloud
+    s.tree.width *= s.tree.height, s.tree.height = 1;  // makes the cloud appear unorganised
     EXPECT_EQ(voxels.update(s.tree, s.cut), expected) << frame;
     EXPECT_TRUE(frame < 5 || right_first);
   }

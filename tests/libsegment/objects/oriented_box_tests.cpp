@@ -44,7 +44,7 @@ Vec3 column(const Eigen::Matrix3d& frame, Index k) {
   return {frame(0, k), frame(1, k), frame(2, k)};
 }
 
-/// The x, y and z coordinates in separate arrays, as the function for boxes takes them.
+/// The x, y and z coordinates in separate arrays, which the functions for boxes expect.
 struct Apart {
   explicit Apart(const std::vector<float>& xyz) {
     for (std::size_t i = 0; i < xyz.size(); ++i) coordinates[i % 3].push_back(xyz[i]);
@@ -112,7 +112,8 @@ TEST(OrientedBox, FewPoints) {
 }
 
 TEST(OrientedBox, NoPointIsOutside) {
-  // Rings, lines and clusters, for which an octagon of some points excludes many, few or no points.
+  // Rings, lines and clusters. An octagon through some of the points contains many, few or none of
+  // the other points, which are then left out.
   std::mt19937 random(8);
   std::uniform_real_distribution<float> uniform(-1, 1);
   for (int round = 0; round < 200; ++round) {
@@ -180,7 +181,7 @@ TEST(OrientedBox, WithoutAPlaneAlongThePrincipalAxes) {
 }
 
 TEST(Neighbours, AllThatTouchByTheValueAtWhichTheyDo) {
-  // One box with two others on top.
+  // One box with two boxes on top.
   const TableScene scene({{{-0.2, -0.05, 0}, {0.2, 0.15, 0.06}},
                           {{-0.15, 0.0, 0.06}, {-0.05, 0.1, 0.18}},
                           {{0.04, 0.0, 0.06}, {0.14, 0.1, 0.16}}});
@@ -196,7 +197,7 @@ TEST(Neighbours, AllThatTouchByTheValueAtWhichTheyDo) {
     for (const Neighbour& n : g.neighbours) {
       const auto& back = s.cut.segments[n.label - 1].neighbours;
       EXPECT_NE(std::ranges::find(back, Neighbour{g.label, n.meets_at}), back.end());
-      // The segments join no later than at the value at which they touch.
+      // Checks that the segments join at the value at which they touch, or earlier.
       EXPECT_LE(first_meeting(s, g.label, n.label)->value, n.meets_at);
     }
     EXPECT_EQ(first_meeting(s, g.label, g.neighbour)->value, g.meets_at);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Signatures of shapes with known homology, each of which is a separate segment.
+// Signatures of shapes with known homology. Each shape is a separate segment.
 #include <gtest/gtest.h>
 
 #include <cmath>

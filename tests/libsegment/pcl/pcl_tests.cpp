@@ -98,7 +98,7 @@ TEST(PclAdapter, NoCloudAndEmptyCloud) {
 TEST(PclAdapter, ACloudWhoseRowsDoNotHoldItIsARow) {
   const TableScene scene = TableScene::two_boxes();
   const auto cloud = cloud_of<::pcl::PointXYZ>(scene);
-  cloud->points.pop_back();  // fewer points than width and height state
+  cloud->points.pop_back();  // fewer points than width times height
   const auto s = segment_cloud(*cloud);
   EXPECT_EQ(s.tree.height, 1);
   EXPECT_EQ(s.cut.segments.size(), 2U);

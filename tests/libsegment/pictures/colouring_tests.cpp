@@ -14,7 +14,7 @@ namespace {
 
 using Neighbours = std::vector<std::vector<std::size_t>>;
 
-/// A row of `k` segments without gaps, each `width` pixels wide and 2 pixels high.
+/// A row of `k` segments without gaps. Each segment is `width` pixels wide and 2 pixels high.
 struct Stripes {
   explicit Stripes(std::uint32_t k, Index width) {
     std::vector<float> xyz(static_cast<std::size_t>(6 * width) * k, 1.0F);

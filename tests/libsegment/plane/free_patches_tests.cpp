@@ -13,8 +13,8 @@
 namespace ph::segment {
 namespace {
 
-/// A table at z = 1, seen from the origin. Its squares are axis-aligned, because unitOrthogonal of
-/// (0, 0, -1) is an axis.
+/// A table at z = 1, seen from the origin. Its squares are axis-aligned, because Eigen's
+/// unitOrthogonal of (0, 0, -1) is an axis.
 constexpr Plane kTable{{0, 0, -1}, 1, 1};
 constexpr double kSide = 0.064;
 using Square = std::pair<int, int>;
@@ -23,11 +23,11 @@ struct Table {
   std::vector<float> xyz;
   std::vector<Index> points, beyond;
 
-  /// Adds a point of the table. x and y are in units of a square's side.
+  /// Adds a point of the table. The unit of x and y is the side of a square.
   void add(double x, double y, double height) { points.push_back(put(x, y, height)); }
   /// Adds a point of an object on the table.
   void over(double x, double y) { beyond.push_back(put(x, y, 0.03)); }
-  /// Adds squares from (x, y) on, `count` along each axis, with n * n points each.
+  /// Adds a block of `count` x `count` squares that begins at (x, y). Each square has n * n points.
   void add_squares(int x, int y, int count, int n = 8) {
     for (int i = 0; i < n * count; ++i)
       for (int j = 0; j < n * count; ++j) add(x + (i + 0.5) / n, y + (j + 0.5) / n, 0);
@@ -78,8 +78,8 @@ TEST(FreePatches, AreAFewNearOnesAndFarOnes) {
   table.add_squares(10, 0, 8);
   const std::map<Square, int> squares = table.squares();
   EXPECT_EQ(squares.size(), 24U);
-  // The chosen squares are spread over all distances from the foot of the viewpoint: each quarter
-  // of the 464 squares, sorted by distance, contains six chosen squares.
+  // The chosen squares are spread over all distances from the foot of the viewpoint. If the 464
+  // squares are sorted by distance, each quarter of them contains six chosen squares.
   const auto farness = [](const Square& s) { return std::hypot(s.first + 0.5, s.second + 0.5); };
   std::vector<double> of_all;
   for (int x = -10; x < 18; ++x)

@@ -17,7 +17,7 @@ namespace {
 using test::all_of;
 
 /// Points of the plane z = 1 + 0.5 y with noise, seen from the origin. The first `outliers` points
-/// are elsewhere.
+/// are not on the plane.
 std::vector<float> tilted_plane(int count, int outliers, double noise) {
   std::mt19937 random(11);
   std::uniform_real_distribution<double> place(-0.5, 0.5);
@@ -75,7 +75,7 @@ TEST(Plane, LooksAtTheSensor) {
 
 TEST(Plane, RemovesItselfAndWhatLiesBehind) {
   std::vector<float> xyz = tilted_plane(1000, 0, 0);
-  // Points in front of the plane, behind it and on it.
+  // Three points: in front of the plane, behind the plane, and on it.
   xyz.insert(xyz.end(), {0, 0, 0.9F, 0, 0, 1.1F, 0, 0, 0.999F});
   const CloudView cloud{xyz, {}};
   const PlaneSearch search = find_plane(cloud, all_of(xyz), {0.006});

@@ -17,7 +17,7 @@ namespace {
 using test::kHole;
 using test::TableScene;
 
-/// A rotation of the scene, and the new position of the sensor.
+/// A rotation of the scene and a new position of the sensor.
 struct Motion {
   Eigen::Matrix3d rotation;
   Vec3 sensor;
@@ -26,7 +26,7 @@ struct Motion {
     std::mt19937 random(seed);
     std::normal_distribution<double> normal;
     std::uniform_real_distribution<double> place(-2, 2);
-    double q[4];  // drawn one by one, because compilers evaluate arguments in any order
+    double q[4];  // not in one expression, because compilers evaluate arguments in any order
     for (double& c : q) c = normal(random);
     rotation = Eigen::Quaterniond(q[0], q[1], q[2], q[3]).normalized().toRotationMatrix();
     do {
@@ -78,7 +78,8 @@ TEST(ProjectionCentre, RoundedCoordinatesDoNotHideIt) {
   EXPECT_FALSE(elsewhere(rounded, motion.sensor));
 }
 
-// One point in twenty is arbitrary: most sensors are found, and none is found in a wrong place.
+// One point in twenty is at a random place. Most sensors are found, and none is found at a wrong
+// place.
 TEST(ProjectionCentre, OutliersHideItSeldom) {
   constexpr unsigned seeds = 60;
   unsigned count = 0;

@@ -43,9 +43,9 @@ class TopDownScene {
 
   const std::vector<float>& xyz() const { return xyz_; }
   std::size_t box_count() const { return boxes_.size(); }
-  /// What each point belongs to: 0 is the table, 1… are the boxes.
+  /// The object of each point: 0 for the table, and 1… for the boxes.
   const std::vector<std::size_t>& truth() const { return truth_; }
-  /// The distance, along the table, of a point of the table from the foot of the nearest box.
+  /// The distance on the table from a point of the table to the foot of the nearest box.
   double to_nearest_box(std::size_t point) const {
     const auto [x, y, z] = on_table(
         {double{xyz_[3 * point]}, double{xyz_[3 * point + 1]}, double{xyz_[3 * point + 2]}});
@@ -57,8 +57,8 @@ class TopDownScene {
   }
 
  private:
-  /// A box on the table: its position relative to the foot, and its size, in metres along right and
-  /// away.
+  /// A box on the table, in metres. x and width are along the axis `right`, and y and depth along
+  /// the axis `away`. The position is relative to the foot of the perpendicular.
   struct Block {
     double x, y, width, depth, height;
   };
@@ -70,7 +70,7 @@ class TopDownScene {
     return {q.dot(right_), q.dot(away_), q.dot(up_)};
   }
 
-  /// Places random boxes, no two of which are closer than 6 cm to each other.
+  /// Places random boxes such that any two boxes are at least 6 cm apart.
   template <class Random>
   void place_boxes(Random& random) {
     constexpr double gap = 0.06;
@@ -78,7 +78,7 @@ class TopDownScene {
     for (int tries = 0; tries < 20 && static_cast<int>(boxes_.size()) < wanted; ++tries) {
       Block b{0, 0, 0.06 + 0.06 * random.real(), 0.06 + 0.06 * random.real(),
               0.03 + 0.07 * random.real()};
-      const double reach = random.coin() ? 0.03 : 0.2;  // around the middle, or anywhere
+      const double reach = random.coin() ? 0.03 : 0.2;  // near the middle, or anywhere
       b.x = reach * (2 * random.real() - 1) - b.width / 2;
       b.y = reach * (2 * random.real() - 1) - b.depth / 2;
       if (std::ranges::all_of(boxes_, [&](const Block& o) {
@@ -116,8 +116,8 @@ class TopDownScene {
         hit = k + 1;
       }
     }
-    // A sum of uniform numbers with a standard deviation of 0.8 mm: a tenth of the table's points
-    // are so high that bases of objects may take them.
+    // The noise is a sum of uniform numbers with a standard deviation of 0.8 mm. A tenth of the
+    // table's points are so high that the bases of objects may take them.
     const double noise = random.real() + random.real() + random.real() - 1.5;
     const double depth = nearest + 0.0016 * noise;
     truth_.push_back(hit);

@@ -16,9 +16,8 @@ namespace {
 
 using test::Block;
 
-/// Blocks as seen by a sensor at (0, -0.9, 0.9) that looks down at 45 degrees. x is right, y away
-/// and z up, and the points have these coordinates. Depth has noise of half a millimetre at one
-/// metre.
+/// Blocks as seen by a sensor at (0, -0.9, 0.9) that looks down at 45 degrees. The coordinates of
+/// the points are x right, y away and z up. At one metre, depth has noise of half a millimetre.
 class Room {
  public:
   static constexpr Index kWidth = 640, kHeight = 480;
@@ -73,7 +72,7 @@ class Room {
  private:
   static constexpr Vec3 kEye{0, -0.9, 0.9};
 
-  /// The distance along a ray at which it enters a block.
+  /// The distance along a ray to the place where it enters a block.
   static double entry(const Block& block, const Vec3& ray) {
     double near = 0, far = kInfinity;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -113,7 +112,7 @@ TEST(Surfaces, AWallIsNoObject) {
     EXPECT_EQ(segment.role, Role::object);
     EXPECT_EQ(segment.on, (StandsOn{1, 0}));
   }
-  // No cut of the tree makes the wall a segment.
+  // Checks that the wall is not a segment in any cut of the tree.
   const std::string tree = tree_bytes(s.tree);
   const SceneTree again = read_tree(Input::view(tree, "tree"));
   EXPECT_EQ(again.surfaces, s.tree.surfaces);
@@ -123,7 +122,7 @@ TEST(Surfaces, AWallIsNoObject) {
 }
 
 TEST(Surfaces, WhatOneSeesBehindIsNoWall) {
-  // A sheet that stands on the table. The table is visible behind the sheet.
+  // A sheet stands on the table, and the table is visible behind it.
   const Block sheet{{-0.4, 0.2, 0}, {0.4, 0.21, 0.25}};
   const Room room({kTable, kLeft, sheet, {{-0.5, 1.2, -0.1}, {0.5, 1.22, 0.6}}});
   const Segmentation s = room.segmented();
@@ -153,7 +152,7 @@ TEST(Surfaces, WhatStandsOnTheFloorIsFound) {
   ASSERT_NE(low, 0U);
   ASSERT_NE(high, 0U);
   EXPECT_NE(low, high);
-  // The first surface is the one with more points, which may be either of the two.
+  // The surface with more points comes first. It may be either of the two.
   for (const auto& [block, label] : {std::pair{0, low}, std::pair{1, high}}) {
     const std::uint32_t number = s.cut.segments[label - 1].on.surface;
     ASSERT_GE(number, 1U) << block;
@@ -257,7 +256,7 @@ TEST(Support, IsNotACardInTheAir) {
   EXPECT_FALSE(alone.tree.plane);
   EXPECT_NE(alone.plane_note.find("nothing is on it"), std::string::npos) << alone.plane_note;
   EXPECT_EQ(alone.cut.segments.size(), 1U);
-  // A larger plane is an empty table.
+  // A larger plane is found, because it is an empty table.
   EXPECT_TRUE(Room({kTable}).segmented().tree.plane);
   // A small tray with something in its middle is a support.
   const Block tray{{-0.2, -0.2, -0.01}, {0.2, 0.2, 0}}, cube{{-0.03, -0.03, 0}, {0.03, 0.03, 0.06}};
@@ -268,7 +267,7 @@ TEST(Support, IsNotACardInTheAir) {
 
 // ---- containers
 
-/// A bin without a lid: its floor, and then its four walls, the right wall last.
+/// A bin without a lid: its floor and its four walls. The right wall is last.
 std::vector<Block> bin() {
   constexpr double w = 0.26, d = 0.2, high = 0.12, thick = 0.01;
   return {{{-w, -d, 0}, {w, d, thick}},
@@ -325,7 +324,7 @@ TEST(PlaneGuess, IsTakenWhileThePointsAgree) {
   const Segmentation next = room.segmented({.plane_guess = guess});
   EXPECT_EQ(next.cut.labels, alone.cut.labels);
   EXPECT_NEAR(next.tree.plane->offset, alone.tree.plane->offset, 1e-4) << "it is fitted again";
-  // If the guess is elsewhere, the search starts from nothing.
+  // If the plane is far from the guess, the search starts from scratch.
   guess.offset += 0.3;
   EXPECT_EQ(room.segmented({.plane_guess = guess}).tree.plane, alone.tree.plane);
   guess.normal = {1, 1, 0};
@@ -342,7 +341,7 @@ TEST(CameraMotion, IsToldFromThePlane) {
   EXPECT_FALSE(camera_motion(before, after));
   const auto turned = [&](double degrees) {
     const double a = degrees * std::acos(-1.0) / 180;
-    // A rotation about the foot of the viewpoint, which keeps the distance.
+    // A rotation about the foot of the viewpoint keeps the distance to the plane.
     SceneTree scene = before;
     scene.plane = Plane{{std::sin(a), 0, std::cos(a)}, 1 - 1.9 * std::cos(a)};
     return camera_motion(before, scene);

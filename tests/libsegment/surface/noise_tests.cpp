@@ -115,7 +115,7 @@ TEST(ConcavityNoise, DoesNotDependOnTheOrder) {
 
 // ---- in a whole scene
 
-/// Two boxes on a table, seen by a sensor that has this noise of depth at one metre.
+/// Two boxes on a table, seen by a sensor whose depth has this noise at one metre.
 std::vector<float> noisy_table(double noise) {
   std::mt19937 random(8);
   std::normal_distribution<double> gauss;
@@ -138,7 +138,8 @@ TEST(NoiseOfScenes, DoublesWithThatOfTheSensor) {
     ASSERT_GE(found.size(), 5U);
     EXPECT_TRUE(std::ranges::is_sorted(found, {}, &NoiseAt::range));
     EXPECT_GT(found.back().concavity, 1.5 * found.front().concavity) << "it is farther away";
-    // Averages over ranges, because the position of the grid relative to the plane matters at each.
+    // Averages over several ranges, because the result at each range depends on the position of the
+    // grid relative to the plane.
     double mean = 0;
     for (const NoiseAt& at : found) mean += at.concavity / static_cast<double>(found.size());
     if (before > 0) {

@@ -124,7 +124,7 @@ TEST(Spacing, DistancesAreThoseAlongTheGraph) {
   EXPECT_NEAR(f[16], 0.04, 1e-12);
   EXPECT_NEAR(f[15], 0.15, 1e-12);  // from the right seed
   EXPECT_NEAR(f[14], 0.14, 1e-12);  // from the left seed
-  // A component without a seed gets its own seed.
+  // A component without a seed gets a seed of its own.
   edges.erase(edges.begin() + 4);
   edges.erase(edges.begin() + 8);
   f = distance_to_seeds(points, edges, concavity, 0.1, default_context());

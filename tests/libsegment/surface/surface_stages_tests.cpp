@@ -77,7 +77,7 @@ TEST(VoxelPairs, FarAwayThereAreNoneAndAnError) {
   }
 }
 
-/// The kind of error from segmenting one point with these options, if there is an error.
+/// The kind of the error if one point is segmented with these options; empty if there is no error.
 std::optional<ErrorKind> failure(const std::vector<float>& xyz, const Vec3& viewpoint,
                                  const SegmentOptions& options) {
   try {
@@ -115,8 +115,8 @@ TEST(VoxelPairs, HugeVoxelsAreRefusedOrHoldAll) {
   }
 }
 
-/// Two half planes that meet in the line y = z = 0 and rise at an angle on both sides of it, seen
-/// from high above.
+/// Two half planes that meet in the line y = z = 0, seen from high above. On both sides of this
+/// line, they rise at a given angle.
 Points valley(double angle, double step) {
   std::vector<Vec3> points;
   for (double x = -0.05; x < 0.05; x += step) {
@@ -143,8 +143,8 @@ TEST(Normals, AreTheDirectionsOfLeastSpread) {
   std::mt19937 random(5);
   std::normal_distribution<double> gauss;
   for (int round = 0; round < 2000; ++round) {
-    // The shapes range from a ball to a needle of 10 mm by 10 um, at random positions, some of them
-    // far from the origin.
+    // The shapes range from a ball to a needle of 10 mm by 10 um. Their positions are random, and
+    // some are far from the origin.
     const Eigen::Vector3d sizes(1, std::pow(10, -1.0 * (round % 4)),
                                 std::pow(10, -1.0 * (round % 7)));
     const Eigen::Matrix3d turn = Eigen::Quaterniond::UnitRandom().toRotationMatrix();
@@ -162,7 +162,7 @@ TEST(Normals, AreTheDirectionsOfLeastSpread) {
     const Points normals = surface_normals(to_points(points), pairs, 1, {0, 0, 10});
     const Eigen::Vector3d n = as_matrix(normals).row(0).transpose();
     ASSERT_NEAR(n.norm(), 1, 1e-12);
-    // Several directions may have the least spread, but the least spread itself is unique.
+    // The least spread is unique, even if several directions have it.
     const double least = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(scatter).eigenvalues()[0];
     ASSERT_NEAR(n.dot(scatter * n), least, 1e-9 * scatter.trace()) << sizes.transpose();
   }
@@ -247,7 +247,8 @@ TEST(Concavity, FewNeighboursHaveNoNormalAndNoValue) {
 }
 
 TEST(MergeTree, BasinsAreWhatTheCutLeaves) {
-  // A path with the values 0 5 1 9 2 3: the minima are 0, 1 and 2, and the merges are at 5 and 9.
+  // A path with the values 0 5 1 9 2 3. The minima have the values 0, 1 and 2, and the merges are
+  // at 5 and 9.
   const std::vector<double> values = {0, 5, 1, 9, 2, 3};
   std::vector<WeightedEdge> edges;
   for (Index v = 1; v < 6; ++v) edges.push_back({v - 1, v, 0.0});

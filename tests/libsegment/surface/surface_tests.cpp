@@ -23,8 +23,8 @@ namespace {
 using test::kHole;
 using test::TableScene;
 
-/// Checks that most points of each block (at least `share`) have the same label, and that these
-/// labels differ.
+/// Checks that most points of each block (at least `share`) have the same label, and that different
+/// blocks have different labels.
 void expect_blocks_apart(const TableScene& scene, const Segmentation& s, double share) {
   std::map<int, std::map<std::uint32_t, Index>> labels;
   std::map<int, Index> sizes;
@@ -50,7 +50,7 @@ TEST(Surface, ObjectsThatStandOnEachOtherComeApart) {
   const Segmentation s = segment(CloudView{scene.xyz(), {}});
   ASSERT_EQ(s.cut.segments.size(), 2U);
   expect_blocks_apart(scene, s, 0.95);
-  // The two segments meet in the seam, and each states the other as its neighbour.
+  // The two segments meet at the seam, and each names the other as its neighbour.
   EXPECT_EQ(s.cut.segments[0].neighbour, 2U);
   EXPECT_EQ(s.cut.segments[1].neighbour, 1U);
   EXPECT_EQ(s.cut.segments[0].meets_at, s.cut.segments[1].meets_at);
@@ -77,8 +77,7 @@ TEST(Surface, TheCutFollowsPersistenceAndSize) {
   const Segmentation s = segment(cloud);
   const double persistence = s.cut.segments[1].persistence;
   EXPECT_EQ(segment(cloud, {.min_persistence = 1.01 * persistence}).cut.segments.size(), 1U);
-  // No place of the seam is lower than this value, and therefore the seam is not weak at half of
-  // it.
+  // No place of the seam is lower than this value, so half of the value still separates the boxes.
   EXPECT_EQ(segment(cloud, {.min_persistence = 0.49 * persistence}).cut.segments.size(), 2U);
   EXPECT_EQ(segment(cloud, {.min_part = s.cut.segments[1].voxels + 50}).cut.segments.size(), 1U);
   // The stored tree gives the same result.
@@ -95,7 +94,7 @@ TEST(Surface, WhereSegmentsMeetFirst) {
   const auto meeting = first_meeting(s, 1, 2);
   ASSERT_TRUE(meeting);
   EXPECT_EQ(meeting->value, s.cut.segments[0].meets_at);
-  const auto& [x, y, z] = meeting->at;  // in the seam, on top of the lower box
+  const auto& [x, y, z] = meeting->at;  // on the seam, at the top of the lower box
   EXPECT_NEAR(s.tree.plane->signed_distance(x, y, z), 0.08, 0.01);
   EXPECT_FALSE(first_meeting(segment(CloudView{TableScene::two_boxes().xyz(), {}}), 1, 2));
   for (const auto& [a, b] : {std::pair{0, 1}, std::pair{1, 3}, std::pair{2, 2}})
@@ -149,7 +148,7 @@ TEST(Surface, CoarseSamplesGetLargerVoxels) {
   EXPECT_GT(s.tree.voxel, 0.005);
   EXPECT_LE(s.tree.voxel, 0.026);
   EXPECT_EQ(s.cut.segments.size(), 2U);
-  // A requested voxel size is used.
+  // If a voxel size is requested, it is used.
   EXPECT_EQ(segment(CloudView{xyz, {}}, {.voxel = 0.005}).tree.voxel, 0.005);
 }
 
@@ -171,8 +170,8 @@ TEST(Surface, AThinThingAloneIsNotASparseSample) {
     ASSERT_EQ(s.cut.segments.size(), 1U);
     EXPECT_EQ(s.cut.segments[0].points, 1400 * times);
   }
-  // Points of a plane that are too far apart to touch are sparse, whether each occurs once or
-  // several times.
+  // If points of a plane are so far apart that their voxels do not touch, they are sparse, even if
+  // each point occurs several times.
   for (const int times : {1, 5}) {
     std::vector<float> xyz;
     for (int i = 0; i < 40 * 40 * times; ++i)
@@ -189,8 +188,8 @@ TEST(Surface, AThinThingAloneIsNotASparseSample) {
   }
 }
 
-/// Two boxes on a table, scaled. The noise of depth grows with the square of the range; `deviation`
-/// is its standard deviation in the middle of the table.
+/// Two boxes on a table, scaled. The noise of depth grows with the square of the range. In the
+/// middle of the table, its standard deviation is `deviation`.
 std::vector<float> noisy_boxes(double scale, double deviation) {
   std::vector<float> xyz = TableScene::two_boxes().xyz();
   std::mt19937 random(5);
@@ -203,8 +202,8 @@ std::vector<float> noisy_boxes(double scale, double deviation) {
 }
 
 TEST(Surface, ThePlaneIsAsThickAsItsNoiseWhereItLies) {
-  // With so much noise, the plane is searched for a second time, near the sensor as well as far
-  // from it.
+  // With so much noise, the plane is searched for a second time. This must work near the sensor and
+  // far from it.
   const TableScene scene = TableScene::two_boxes();
   for (const double range : {0.3, 2.0}) {
     const Segmentation s =
@@ -244,7 +243,8 @@ TEST(Surface, ASmallerPlaneDistanceGoesBeforeTheNoiseFloor) {
 }
 
 TEST(Surface, NoiseThatGrowsWithTheRangeLeavesTheTableEmpty) {
-  // Noise as of a disparity sensor, with a standard deviation of 1.4 mm at one metre.
+  // The noise is like the noise of a disparity sensor, with a standard deviation of 1.4 mm at one
+  // metre.
   TableScene scene = TableScene::two_boxes();
   std::vector<float> xyz = scene.xyz();
   std::mt19937 random(5);
@@ -272,8 +272,8 @@ TEST(Surface, HalfABallIsOne) {
   EXPECT_EQ(segment(CloudView{xyz, {}}, {.plane = false}).cut.segments.size(), 1U);
 }
 
-/// Specks of nine voxels with gaps between them, which partly hide a wall of specks behind: a scene
-/// with very many parts.
+/// Specks of nine voxels with gaps between them, which partly hide a wall of specks behind them.
+/// This scene has very many parts.
 std::vector<float> specks(int a_side) {
   std::vector<float> xyz;
   for (const double depth : {0.7, 0.8}) {
@@ -302,7 +302,7 @@ TEST(Objects, ManySpecksTakeBoundedTimeAndCanBeStopped) {
   EXPECT_GT(cut(s.tree, apart).segments.size(), 2000U) << "parts that are compared";
   EXPECT_LT(took.count(), 20);
 
-  // The stage that joins parts checks for a stop as well, in the middle of its work.
+  // The stage that joins parts also checks for a stop in the middle of its work.
   std::stop_source source;
   RunContext context;
   context.stop = source.get_token();

@@ -31,7 +31,8 @@ void expect_same(const SceneCut& a, const SceneCut& b) {
   EXPECT_EQ(a.segments, b.segments);
 }
 
-/// A box on another box, and next to them a third box, whose middle a bar in front of it hides.
+/// A box on another box, and next to them a third box. A bar in front of the third box hides its
+/// middle.
 TableScene stack() {
   return TableScene({{{-0.2, -0.05, 0}, {0.0, 0.15, 0.08}},
                      {{-0.14, 0.0, 0.08}, {-0.06, 0.1, 0.2}},
@@ -249,7 +250,7 @@ TEST(DamagedTree, ContentsThatCannotBe) {
   EXPECT_TRUE(says(damaged([](SceneTree& t) { t.surfaces[0].plane.normal[0] += 1; }), "surface"));
   EXPECT_TRUE(says(damaged([](SceneTree& t) { t.noise.push_back({1, -1}); }), "noise"));
   EXPECT_TRUE(says(damaged([](SceneTree& t) { t.noise.assign({{2, 1}, {1, 1}}); }), "noise"));
-  // Such a tree cannot be written either; its bytes are damaged here.
+  // Such a tree cannot be written, so the damage is done to its bytes.
   const std::size_t first_merge =
       (kTreeHeader + s.tree.surfaces.size() * kTreeSurface + s.tree.noise.size() * kTreeNoise) /
           kTreeWord +
@@ -262,7 +263,7 @@ TEST(DamagedTree, ContentsThatCannotBe) {
   EXPECT_TRUE(says(
       damaged([](SceneTree& t) { std::swap(t.merge_tree.merges[9], t.merge_tree.merges.back()); }),
       "forest"));
-  // A tree with more coordinates than points cannot be written either.
+  // A tree with more coordinates than points that have a vertex cannot be written either.
   std::string bytes = tree_bytes(s.tree);
   const std::size_t first_point = (first_merge + 2 * s.tree.merge_tree.merges.size()) * kTreeWord;
   std::memcpy(
@@ -280,8 +281,8 @@ TEST(DamagedTree, ContentsThatCannotBe) {
                      "coordinates"));
   EXPECT_TRUE(says(damaged([](SceneTree& t) { t.xyz[0] += 0.6F; }), "coordinates"));
   SceneTree pieces = segment(CloudView{stack().xyz(), {}}, {.method = Method::supervoxels}).tree;
-  // The point is too far away for the base of an object, and this method does not look through
-  // openings.
+  // The point is too far from its voxel to be in the base of an object, and this method does not
+  // look through openings.
   pieces.xyz[0] += 0.05F;
   EXPECT_TRUE(says(refusal(tree_bytes(pieces)), "coordinates"));
   EXPECT_TRUE(says(damaged([](SceneTree& t) {
@@ -293,7 +294,7 @@ TEST(DamagedTree, ContentsThatCannotBe) {
 }
 
 /// Two vessels whose bottoms appear 3 cm below the table, and the points that were restored through
-/// the openings.
+/// their openings.
 struct Bottoms {
   test::VesselScene scene{{{.x = -0.15}, {.x = 0.15, .radius = 0.06, .height = 0.05}}, 0.03};
   Segmentation s = segment(scene.cloud());
@@ -344,7 +345,7 @@ TEST(StoredTreeOpenings, WhatNoOpeningShowsIsRefused) {
   for (const double height : {-0.051, -1.0, 0.1, 1e30}) EXPECT_TRUE(is_refused(0, height));
   EXPECT_NO_THROW(read_again(moved(0.4, -0.03)));
   for (const double aside : {0.6, -0.6, 1e30}) EXPECT_TRUE(is_refused(aside, -0.03)) << aside;
-  // Other methods do not look through openings, and if no plane was found, nothing can be below it.
+  // Other methods do not look through openings. If no plane was found, no point can be below it.
   SceneTree tree = b.s.tree;
   tree.method = Method::supervoxels;
   EXPECT_NE(refusal(tree_bytes(tree)).find("seen through an opening"), std::string::npos);

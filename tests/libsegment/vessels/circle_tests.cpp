@@ -48,8 +48,8 @@ TEST(Circle, IsFoundAmongNoise) {
 }
 
 TEST(Circle, EachSetHasTheSameWeight) {
-  // For two concentric circles, the radius is between the two radii, whatever the numbers of
-  // points.
+  // If the points lie on two concentric circles, the radius is between the two radii, however many
+  // points each circle has.
   for (const int count : {36, 36 * 50}) {
     const auto small = arc(0.06, 0, 2 * kPi, 36), large = arc(0.1, 0, 2 * kPi, count);
     const Circle circle = fit_circle({&small, &large});
@@ -58,8 +58,8 @@ TEST(Circle, EachSetHasTheSameWeight) {
   }
 }
 
-// The circle fitted to a line is arbitrary, but a line never covers more than half of the circle. A
-// rim must cover more.
+// The circle fitted to a line is arbitrary, but the line covers at most half of it. A rim must
+// cover more than half.
 TEST(Circle, ALineIsOnHalfOfItsCircleAtMost) {
   for (int degrees = 0; degrees < 180; ++degrees) {
     const Eigen::Vector2d along(std::cos(degrees * kPi / 180), std::sin(degrees * kPi / 180));

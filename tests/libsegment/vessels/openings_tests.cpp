@@ -21,7 +21,7 @@ using test::VesselScene;
 constexpr Plane kTable{{0, 0, 1}, 0, 1};
 constexpr double kVoxel = 0.005, kMargin = 0.005;
 
-/// The points that are restored through the openings of a scene's objects.
+/// The points that are restored through the openings of objects in a scene.
 struct Found {
   std::vector<Index> points;        ///< the restored points
   std::vector<std::uint32_t> to;    ///< the voxel that each restored point joined
@@ -29,8 +29,8 @@ struct Found {
   std::map<Met, std::size_t> what;  ///< for each kind of thing, the number of restored points
 };
 
-/// @param object_of returns the object of a voxel from its position. Everything on the table must
-/// have an object.
+/// @param object_of returns the object at a position (x, y) of a voxel. Every voxel above the table
+/// has an object.
 template <class ObjectOf>
 Found find(const VesselScene& scene, const Vec3& eye, ObjectOf&& object_of) {
   const CloudView cloud{scene.xyz(), eye};
@@ -66,8 +66,8 @@ TEST(Openings, ShowTheBottomsOfVessels) {
       Found found = find(scene);
       EXPECT_GT(scene.count(Met::bottom), 30U);
       EXPECT_GT(found.what[Met::bottom], 0.9 * static_cast<double>(scene.count(Met::bottom)));
-      // The other points are at the foot of the rear wall. No point of the table in front or beside
-      // is included.
+      // The other points are at the foot of the rear wall. No point of the table in front of the
+      // vessel or beside it is included.
       EXPECT_EQ(found.what[Met::bottom] + found.what[Met::inside], found.points.size());
       EXPECT_TRUE(std::ranges::is_sorted(found.points));
       EXPECT_EQ(std::set(found.to.begin(), found.to.end()).size(), 1U);
@@ -94,7 +94,7 @@ TEST(Openings, EachVesselHasItsOwn) {
     voxels.insert(found.to[k]);
   }
   EXPECT_EQ(voxels.size(), 2U);
-  // Taken as one object, the two vessels have no round rim.
+  // If the two vessels are one object, this object has no round rim.
   EXPECT_TRUE(find(scene).points.empty());
 }
 
@@ -176,7 +176,7 @@ TEST(OpeningsOfScenes, BottomsHaveTheLabelOfTheirVessel) {
     std::size_t right = 0, wrong = 0;
     for (std::size_t i = 0; i < s.cut.labels.size(); ++i) {
       if (scene.met()[i] == Met::table) {
-        // The foot of a wall may take some points from the table.
+        // Some points of the table at the foot of a wall may get the label of the wall.
         wrong += s.cut.labels[i] != 0 && scene.xyz()[3 * i + 2] < 0.001 ? 1 : 0;
       } else if (scene.met()[i] == Met::bottom) {
         right += s.cut.labels[i] == (scene.xyz()[3 * i] < 0 ? 1U : 2U) ? 1 : 0;

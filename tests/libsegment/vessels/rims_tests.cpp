@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kVoxel = 0.005;
 
-/// A cloud with two walls of 4 cm, such as a bowl shows: its outside in front and its inside
+/// A cloud with two walls, 4 cm high. A bowl shows such walls: its outside in front and its inside
 /// behind.
 class TwoWalls {
  public:
@@ -112,7 +112,7 @@ TEST(Rims, ArcsThatLeaveTheCircleOpenDoNot) {
   open.add_arc(0, 0.42 * kPi, 0.08, 0.07, 0);
   open.add_arc(kPi, 1.42 * kPi, 0.08, 0.07, 1);
   EXPECT_FALSE(open.joined());
-  TwoWalls half;  // what is seen of a mug at two metres
+  TwoWalls half;  // the visible part of a mug at two metres
   half.add_arc(0, 0.6 * kPi, 0.08, 0.07, 0);
   half.add_arc(kPi, 1.6 * kPi, 0.08, 0.07, 1);
   EXPECT_TRUE(half.joined());

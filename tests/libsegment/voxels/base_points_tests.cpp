@@ -10,12 +10,12 @@
 namespace ph::segment {
 namespace {
 
-/// A table at z = 1, seen from the origin. Its squares are axis-aligned, because unitOrthogonal of
-/// (0, 0, -1) is an axis.
+/// A table at z = 1, seen from the origin. Its squares are axis-aligned, because Eigen's
+/// unitOrthogonal of (0, 0, -1) is an axis.
 constexpr Plane kTable{{0, 0, -1}, 1, 1};
 
-/// The voxels that points of the strip join by assign_base_points. @param side the side of a
-/// square.
+/// Walls, and a strip of table points. The function assign_base_points adds points of the strip to
+/// voxels of the walls.
 struct Bases {
   std::vector<float> xyz;
   std::vector<Index> walls, strip;
@@ -24,7 +24,8 @@ struct Bases {
     to.push_back(static_cast<Index>(xyz.size() / 3));
     for (const double c : {x, y, 1 - height}) xyz.push_back(static_cast<float>(c));
   }
-  /// For each point of the strip, the wall whose voxel it joins, or -1.
+  /// For each point of the strip, the wall to whose voxel it is added, or -1.
+  /// @param side the side of a square.
   std::vector<Index> assigned(double side) const {
     std::vector<Index> points = walls;
     VoxelGrid grid;
@@ -72,7 +73,7 @@ TEST(AssignBasePoints, AWallOnEverySquare) {
 }
 
 TEST(AssignBasePoints, SquaresFarFromTheOriginAreNotTakenForOneAnother) {
-  // With sides of 2^-33 … 2^-20, coordinates are 2^20 … 2^37 squares, of both signs.
+  // If the sides are 2^-33 … 2^-20, coordinates are 2^20 … 2^37 squares, with either sign.
   for (int log = -33; log <= -20; ++log) {
     const double side = std::ldexp(1, log);
     for (const double sign : {-1.0, 1.0}) {

@@ -85,7 +85,7 @@ TEST(VoxelGrid, EqualsASlowOneWithManyVoxels) {
   }
   const double voxel = 0.1;
   const VoxelGrid grid = voxel_grid({xyz, {}}, all_of(points.rows()), voxel);
-  // Keyed by z, y, x.
+  // The keys are the coordinates (z, y, x) of the voxels.
   std::map<std::array<double, 3>, std::pair<std::array<double, 3>, Index>> slow;
   for (std::size_t i = 0; i < xyz.size(); i += 3) {
     auto& [sum, count] = slow[{std::floor(xyz[i + 2] / voxel), std::floor(xyz[i + 1] / voxel),
