@@ -29,7 +29,7 @@ std::string_view word_of(Kind kind) {
     case Kind::life_entropy:
       return "life_entropy";
     default:
-      return std::string(name_of(kind));
+      return name_of(kind);
   }
 }
 
