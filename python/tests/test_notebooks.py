@@ -127,8 +127,8 @@ FACTS = {
         ("finds 2 objects", "len(scene.objects) == 2"),
         ("that of its object, or 0", "set(np.unique(scene.labels)) == {0, 1, 2}"),
         ("by default 1: the noise", "stack.meta['cut'] == 1"),
-        ("The short bar here is 23 long.",
-         "round(bars[0].persistence) == 23 == round(value) and np.isinf(bars[1].death)"),
+        ("The short bar here is 168 long.",
+         "round(bars[0].persistence) == 168 == round(value) and np.isinf(bars[1].death)"),
         ("All others are shorter than 0.1", "len(bars) == 2"),
         ("a table 0.9 m away", "abs(np.median(depth) - 0.9) < 0.001"),
         ("Only the ring has one.", "[len(own.signature(k).filter(dim=1)) for k in (1, 2, 3)] =="

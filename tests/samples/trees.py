@@ -15,8 +15,8 @@ def header(method, size, counts, distance, plane, cut):
     """The header of a stored tree. @param counts vertices, merges, points with a vertex, edges.
     @param cut value, min_part, … The plane, if there is one, is the only surface."""
     surface = words("<", SUPPORT, *plane[1:]) if plane[0] else b""
-    return b"ph-tree\n" + words("<", 2, method, *size, *counts, 1.0, 0.0, 0.0, 0.0, distance, 0,
-                                *plane, *cut, 2.0, plane[0], plane[0], 0) + surface
+    return b"ph-tree\n" + words("<", 3, method, *size, *counts, 1.0, 0.0, 0.0, 0.0, distance, 0,
+                                *plane, *cut, plane[0], plane[0], 0) + surface
 
 
 def tree(name, *parts):

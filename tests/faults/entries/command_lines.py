@@ -172,7 +172,7 @@ SEGMENT = [
     (49, ["--intrinsics", "1,1,0,0"], "--intrinsics"),
     (49, ["--intrinsics", "1,1,0"], "--intrinsics"),
     (49, ["--depth-scale", "0"], "--depth-scale"),
-    (49, ["--depth-scale", "0.001"], "1 / 0.001 = 1000"),
+    (49, ["--depth-scale", "0.001"], "if a unit is 0.001 m, the scale is 1000"),
     (49, ["--labels", "x.txt"], "--labels"),
     (49, ["--labels", "x.png"], "unorganised"),
     (49, ["--picture", "x.png"], "unorganised"),
@@ -187,7 +187,7 @@ SEGMENT = [
     (49, ["-o", "x.obj"], "found x.obj, expected a file name that ends in .pcd or .ply"),
     (50, ["--distance"], "--distance"),
     (50, ["--voxle", "0.1"], "did you mean '--voxel'"),
-    (50, ["another.pcd"], r"found '\S+', expected a folder"),
+    (50, ["another.pcd"], r"found '\S+', expected a folder \(FOLDER/\) or a \*"),
 ]
 
 

@@ -322,13 +322,12 @@ def read_tree(content):
         at += values.nbytes
         return values
     version, method, columns, rows, vertices, merges, points, edges = take("<i8", 8).tolist()
-    assert version == 2, version
+    assert version == 3, version
     voxel, *viewpoint, distance = take("<f8", 5).tolist()
     take("<i8", 2)
     take("<f8", 5)
     take("<f8", 1)
     take("<i8", 3)
-    take("<f8", 1)
     surfaces, _, ranges = take("<i8", 3).tolist()
     at += surfaces * 48 + ranges * 16
     corners = take("<f8", 3 * vertices).reshape(-1, 3)
