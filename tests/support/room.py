@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""A depth camera's view of a synthetic table with boxes in front of a wall, as an organised PCD
-file."""
+"""A depth camera's view of a synthetic table with boxes in front of a wall with a board, as an
+organised PCD file."""
 import math
 import random
 import struct
@@ -10,7 +10,8 @@ TABLE = ((-0.6, -0.5, -0.02), (0.6, 0.5, 0.0))
 LARGE, SMALL = ((-0.12, -0.05, 0.0), (0.06, 0.09, 0.13)), ((-0.07, -0.02, 0.13), (0.02, 0.07, 0.2))
 BESIDE = ((0.13, -0.05, 0.0), (0.27, 0.07, 0.11))
 WALL = ((-0.5, 0.6, -0.1), (0.5, 0.62, 1.5))
-BLOCKS = (TABLE, LARGE, SMALL, BESIDE, WALL)
+BOARD = ((-0.45, 0.25, 0.25), (0.45, 0.58, 0.27))
+BLOCKS = (TABLE, LARGE, SMALL, BESIDE, WALL, BOARD)
 
 
 def _entry(block, ray):

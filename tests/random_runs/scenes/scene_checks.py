@@ -90,8 +90,6 @@ class Check:
             require(self.said is None or "rays of the pixels" in self.said, "another viewpoint without a note")
         if a.voxel is not None or a.method == "paper":
             expect("voxel", j["voxel"], a.voxel_edge())
-        else:
-            require(any(math.isclose(j["voxel"], 0.005 * 1.5 ** k) for k in range(5)), f"voxel {j['voxel']}")
 
     def options(self):
         a = self.asked
@@ -158,6 +156,8 @@ class Check:
         kept = oracle.in_range(self.xyz, j["viewpoint"], a.max_range, a.crop)
         expect("points in range", self.points_of("range filter"), int(kept.sum()))
         require(not self.labels[~kept].any(), "a label on a point out of range")
+        if a.voxel is None and a.method != "paper":
+            self.grown_voxel(kept)
         self.beyond = self.before_plane(kept)
         if self.beyond is None:
             return
@@ -168,6 +168,20 @@ class Check:
             self.paper()
         else:
             self.counted = True
+
+    def grown_voxel(self, kept):
+        """Checks the edge of a voxel without --voxel: at least 5 mm, for method surface at least 4 mm
+        per metre of the upper quartile of the ranges, and larger by powers of 1.5 in sparse clouds.
+        If a plane is removed, the quartile is only known to be at most the largest range."""
+        j = self.json
+        least = most = 0.005
+        if self.asked.method == "surface" and kept.any():
+            ranges = np.sort(np.linalg.norm(self.xyz[kept] - j["viewpoint"], axis=1))
+            most = max(least, 0.004 * ranges[-1])
+            if not j["plane"]["found"]:
+                least = most = max(least, 0.004 * ranges[int(0.75 * (len(ranges) - 1))])
+        edges = [j["voxel"] / 1.5 ** k for k in range(5)]
+        require(any(least * (1 - 1e-9) <= edge <= most * (1 + 1e-9) for edge in edges), f"voxel {j['voxel']}")
 
     def before_plane(self, kept):
         """@return a mask of the points in front of the plane; None if the mask cannot be known."""
