@@ -173,8 +173,8 @@ bool can_be_tried(const Rips& rips, const RunContext& context) {
 }
 
 Estimate estimate_one(const Rips& rips, const Options& options, const RunContext& context) {
-  // An estimate must not fill the memory of the machine. If no limit is set, that memory is
-  // therefore the limit.
+  // An estimate must not fill the memory of the machine. That memory is therefore the limit, unless
+  // the limit of the context leaves less.
   RunContext within(context.memory);
   within.memory.set_limit(std::min(context.memory.left(), machine_memory()));
   within.stop = context.stop;

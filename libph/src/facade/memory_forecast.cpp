@@ -109,8 +109,9 @@ double listed_of(const RipsGraph& part, const Options& options, const RunContext
 }
 
 /// Orders the vertices so that the first k vertices, for any k, span a part that is similar to the
-/// entire graph. The order is random if most pairs of vertices are edges. Otherwise it is breadth
-/// first, starting from a random vertex.
+/// entire graph. The order is random if the graph is dense, that is, if about a quarter of the
+/// pairs of vertices or more are edges. Otherwise it is breadth first, starting from a random
+/// vertex of each component.
 std::vector<std::uint32_t> order_of(const RipsGraph& graph, std::uint64_t seed) {
   std::vector<std::uint32_t> order(static_cast<std::size_t>(graph.size()));
   std::iota(order.begin(), order.end(), 0U);

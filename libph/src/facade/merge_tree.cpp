@@ -62,7 +62,7 @@ std::vector<Index> MergeTree::components(double value) const {
     if (!(m.value <= value)) break;  // the loop stops at once if `value` is NaN
     parent[static_cast<std::size_t>(m.younger)] = m.elder;
   }
-  // A parent was born before its child, so the loop that follows parents ends at a root. The loop
+  // A parent is older than its child, so the loop that follows parents ends at a root. The loop
   // also halves the path, which makes later searches faster.
   for (std::size_t v = 0; v < parent.size(); ++v) {
     for (Index root = parent[v]; root >= 0;) {

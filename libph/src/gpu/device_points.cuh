@@ -26,7 +26,7 @@ T* raw(thrust::device_vector<T>& v) {
   return thrust::raw_pointer_cast(v.data());
 }
 
-/// Throws an error of CUDA. @throws thrust::system_error
+/// @throws thrust::system_error if CUDA has reported an error.
 inline void check(cudaError_t error) {
   if (error != cudaSuccess) throw thrust::system_error(error, thrust::cuda_category());
 }

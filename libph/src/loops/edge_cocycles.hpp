@@ -21,8 +21,8 @@ class Elders {
  public:
   /// Makes an object that compares births by edge or by value. @param by_value true for a
   /// comparison by value, which is needed if the order among edges of equal value may have changed
-  /// (as after a collapse). Bars that are born at the same value are then elders of each other, and
-  /// each bar is its own elder.
+  /// (as after a collapse). If two bars are born at the same value, the bar that does not die first
+  /// is then an elder of the other bar. Each bar is then its own elder.
   explicit Elders(bool by_value) : by_value_(by_value) {}
   bool is_elder(const Lifetime& elder, const Lifetime& of) const {
     if (elder.death < of.death) return false;  // mutant: loops-elder

@@ -148,8 +148,8 @@ class Tightener {
 
   /// Computes the cocycles that bars need, but only for the bars that die early enough to keep the
   /// computation short.
-  /// @return the latest death among the bars whose cocycles were computed; -infinity if there is no
-  /// such bar.
+  /// @return the latest death among the bars for which the needed cocycles were computed; -infinity
+  /// if there is no such bar.
   double compute_cocycles(const std::vector<Candidate>& candidates, EdgeCocycles& cocycles) const {
     std::vector<Candidate> asking;  // sorted by birth
     for (const Candidate& c : candidates)
@@ -292,8 +292,9 @@ class Tightener {
     std::vector<std::uint32_t> counted;
     std::vector<std::int64_t> slot(cocycles.lifetimes().size(), -1);
     for (std::uint32_t k = 0; k < slot.size(); ++k) {
-      // A bar that needs no cocycles has no elder. Lifetimes are not compared for it, because a
-      // cocycle whose bar dies after the last computed value seems to live forever.
+      // A bar that needs no cocycles has no elder except perhaps itself. Lifetimes are not compared
+      // for it, because a cocycle whose bar dies after the last computed value seems to live
+      // forever.
       if (!c.needs_cocycles || !elders_.is_elder(cocycles.lifetimes()[k], c.lifetime)) continue;
       slot[k] = static_cast<std::int64_t>(counted.size());
       counted.push_back(k);

@@ -24,8 +24,8 @@ struct Split {
   int shift;                           // position of the digit
 };
 
-// Divides edges by the bits just below `shift`, into about as many parts as there are edges. The
-// values of all edges must agree in the bits at and above `shift`.
+// Divides edges by the bits just below `shift`, into about as many parts as there are edges, but at
+// most 4096 parts. The values of all edges must agree in the bits at and above `shift`.
 Split split(std::span<FlagEdge> edges, int shift, FlagEdges& buffer) {
   constexpr int most_bits = 12;  // this keeps the counts in the cache
   const int bits = std::min({most_bits, shift, static_cast<int>(std::bit_width(edges.size()))});

@@ -33,8 +33,8 @@ namespace ph {
 /// further component, the sum a(u,w) + a(w,v) should equal that annotation. If it does not, the
 /// youngest generator of the difference dies. If a further component kills nothing, a class of H2
 /// is born. An edge is *active* if it has an annotation that is not zero. For almost all edges, no
-/// edge between u or v and the link is active, and nothing can happen. See LinkLoops, LinkSurfaces,
-/// LinkVolumes and docs/explanation/engines/edge-links.md.
+/// edge between u or v and the link is active, and no class of H1 dies. See LinkLoops,
+/// LinkSurfaces, LinkVolumes and docs/explanation/engines/edge-links.md.
 template <Field K>
 class EdgeLinkSweep {
  public:
@@ -43,8 +43,8 @@ class EdgeLinkSweep {
   using Position = typename Observer::Position;
 
   /// @param births the births of the vertices; if empty, all vertices enter before all edges.
-  /// @param edges must outlive the sweep. Bins of edges that cannot change anything are never
-  /// sorted.
+  /// @param edges must outlive the sweep. If no edge of the last bins can change anything, these
+  /// bins are never sorted.
   EdgeLinkSweep(std::size_t vertices, std::span<const double> births, const BinnedEdges& edges,
                 const K& field, SweepRequest wanted, Observer& observer, const RunContext& context)
       : edges_(edges),

@@ -101,7 +101,7 @@ class LinkCycles {
   // For each generator, the path from the end of its edge to the start.
   std::pmr::vector<Path> paths_;
   std::pmr::vector<LinkGraph::Word> unvisited_;
-  std::pmr::vector<Vertex> before_;  // for each vertex, the vertex visited before it
+  std::pmr::vector<Vertex> before_;  // for each vertex, the vertex from which it was reached
   std::pmr::vector<Vertex> queue_;
   Sums<Generator> values_;
   Sums<std::pair<Vertex, Vertex>> terms_;

@@ -23,8 +23,8 @@
 namespace ph {
 
 /// Computes H1 of a Vietoris-Rips filtration edge by edge. The class computes the annotations of
-/// edges, and the births, deaths and representatives of classes. While thousands of classes are
-/// alive, a RelationSolver does this work instead.
+/// edges, and the births, deaths and representatives of classes. Over Z/2, while hundreds of
+/// classes are alive and only their pairs are wanted, a RelationSolver may do this work instead.
 template <Field K>
 class LinkLoops {
  public:
@@ -73,7 +73,8 @@ class LinkLoops {
   void begin_annotations() {
     annotations_.emplace(field_, active_, wanted_.cocycles, &context_.memory);
   }
-  /// True if many classes are alive, and only their pairs are wanted.
+  /// True if many classes are alive, only their pairs are wanted, and active edges and memory allow
+  /// a solver.
   bool wants_solver() const {
     return living_count() >= living_for_solver_ && active_.has_rows() && !wanted_.surfaces &&
            !wanted_.cycles && !wanted_.cocycles &&

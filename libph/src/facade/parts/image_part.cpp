@@ -67,8 +67,8 @@ int lowest_of_top_cells(const GridShape& shape) {
   return shape.top_dim() - 1 + static_cast<int>(shape.loop_count());
 }
 
-/// The voxels of some layers and of one more layer on each side. They are copied only if a periodic
-/// axis makes the outer layers wrap around.
+/// The voxels of some layers, and of one more layer on each side where there is one. They are
+/// copied only if a periodic axis makes the outer layers wrap around.
 Voxels voxels_of(const Image& image, const PartLayout::Layers& layers,
                  const GridShape::Axis& axis) {
   const auto owner = std::make_shared<const Voxels>(image.values);

@@ -10,9 +10,9 @@
 
 namespace ph {
 
-/// A set of small numbers that are assigned in ascending order. While the set is small, it is
-/// stored as an unsorted list. A larger set is stored as a row of bits, and never becomes a list
-/// again.
+/// A set of small numbers that are assigned in ascending order. While the set is small, or sparse
+/// among the numbers assigned so far, it is stored as an unsorted list. Otherwise it is stored as a
+/// row of bits, and never becomes a list again.
 class NumberSet {
  public:
   using Id = std::uint32_t;

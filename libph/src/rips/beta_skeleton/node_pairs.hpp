@@ -84,7 +84,8 @@ class NodePairQueue {
   static constexpr int kPartBits = 5;
   static constexpr std::size_t kParts = 1 << kPartBits;
   using Bins = std::pmr::vector<Pairs>;
-  /// Bins of equal width. All distances in a bin have the same leading binary digits.
+  /// Bins, each of which belongs to the distances with the same leading binary digits. The first
+  /// bin and the open bin also receive pairs at smaller distances.
   struct Level {
     std::uint64_t first;  // the leading digits of the distances in bin 0
     int shift;

@@ -17,8 +17,8 @@ namespace {
 
 using namespace beta_skeleton;
 
-/// Computes the pairs of distinct points in two passes. The first pass finds H0 and the births of
-/// H1. The second pass finds the deaths of H1.
+/// Computes the pairs of birth and death of distinct points in two passes. The first pass finds H0
+/// and the births of H1. The second pass finds the deaths of H1.
 template <int D, Field K>
 class Pairing {
  public:

@@ -41,8 +41,8 @@ class Finder {
  private:
   double extent(Node node) const { return S::extent(tree_.box(node)); }
 
-  /// Looks at all pairs of a point in node a and a point in node b. True if one point is in the
-  /// lenses of all these pairs, or if all these pairs are too long.
+  /// True if the boxes of nodes a and b show that no pair of a point in a and a point in b is an
+  /// edge: one point is in the lenses of all these pairs, or all these pairs are too long.
   bool is_hopeless(Node a, Node b) const {
     const double least = S::least_of_boxes(tree_.box(a), tree_.box(b));
     if (std::sqrt(least) > limit_) return true;

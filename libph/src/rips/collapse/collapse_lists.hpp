@@ -9,8 +9,8 @@
 
 namespace ph::collapse {
 
-/// The graph of an edge collapse, for graphs with few edges. For each vertex, it has the sorted
-/// list of neighbours, each with the key at which its edge enters.
+/// The graph of an edge collapse, for large graphs with few edges. For each vertex, it has the
+/// sorted list of neighbours, each with the key at which its edge enters.
 class ListGraph {
  public:
   using Set = std::pmr::vector<Vertex>;  // ascending

@@ -10,7 +10,7 @@
 
 namespace ph::collapse {
 
-/// The graph of an edge collapse, for graphs with most of the possible edges. Edges that entered
+/// The graph of an edge collapse, for graphs whose rows of bits are affordable. Edges that entered
 /// before the current edge are stored as rows of bits. Later edges that were kept are stored as
 /// sorted lists.
 class RowGraph {

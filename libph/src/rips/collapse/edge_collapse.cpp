@@ -137,7 +137,8 @@ class EdgeCollapse {
   Graph graph_;
   typename Graph::Set link_, candidates_;
   std::pmr::vector<Arrival> arrivals_;  // a heap with the next arrival on top
-  // For each vertex, the dominator of its last edge, which is a good guess for its next edge.
+  // For each vertex, the last dominator of an edge whose larger end is this vertex. It is a good
+  // guess for the next such edge.
   std::pmr::vector<Vertex> last_dominator_;
 };
 

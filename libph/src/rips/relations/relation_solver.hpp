@@ -17,7 +17,7 @@
 
 namespace ph {
 
-/// Replaces Annotations over Z/2 while thousands of classes of H^1 are alive, which happens with
+/// Replaces Annotations over Z/2 while hundreds of classes of H^1 are alive, which happens with
 /// random distances. The annotations of this class are formal, that is, they are sums of generators
 /// in which dead generators are not substituted. Deaths are recorded only by relations between
 /// generators. At first, a formal annotation is a list of a few generators. Later it is a row of

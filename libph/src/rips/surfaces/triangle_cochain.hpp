@@ -49,7 +49,8 @@ class TriangleCochain {
           rows(blocks, memory),
           star(memory) {}
     std::size_t blocks;
-    // The largest number of terms in lists. With more terms, a cochain becomes dense.
+    // The largest number of terms in lists. With more terms, a cochain becomes dense. If there are
+    // many cochains, twice this number is allowed (see adapt).
     std::size_t most_terms;
     std::size_t living = 0;  // cochains in use
     RowPool<K> rows;

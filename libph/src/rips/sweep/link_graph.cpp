@@ -75,7 +75,7 @@ LinkGraph::LinkGraph(const ActiveEdges& active, const BinnedEdges& edges, LinkLa
 
 LinkLayout LinkGraph::choose_layout(std::size_t vertices, std::size_t edges) {
   // Measurements show that rows are faster if the average degree is at least n / 128. Rows then
-  // take at most four times the memory of the edges.
+  // take at most about twice the memory of the edges.
   const auto n = static_cast<double>(vertices), m = static_cast<double>(edges);
   return 2 * m * 128 >= n * n ? LinkLayout::rows : LinkLayout::lists;
 }

@@ -13,8 +13,9 @@ namespace ph {
 /// Thresholds at which a sweep of edge links changes its method. Results do not depend on them.
 struct SweepTuning {
   LinkLayout layout = LinkLayout::automatic;
-  /// A cocycle is stored as lists instead of rows if it has at most this many terms per vertex on
-  /// average.
+  /// A cocycle over Z/2 is stored as lists instead of rows as long as it has at most this many
+  /// terms per vertex on average. Over other fields, or while many classes of H2 are alive, the
+  /// limit is higher.
   std::size_t most_terms = 64;
   /// The largest number of vertices for which active edges are stored both as rows and as lists.
   std::size_t vertices_of_active_rows = 1 << 11;
