@@ -10,7 +10,9 @@
 
 namespace ph::detail {
 
-/// All engines of libph. To add an engine, write its file and add the engine to this list.
+/// All engines of libph except AlphaEngine, which has the name of GradientEngine and is only for
+/// alpha complexes (see alpha.cpp). To add an engine, write its file and add the engine to this
+/// list.
 using AllEngines = decltype(std::tuple_cat(
     GenericEngines{}, std::tuple<EdgeLinkEngine, BetaSkeletonEngine, GradientEngine>{}));
 

@@ -17,7 +17,9 @@ int listed_rips_dim(Engine engine, int max_dim);
 
 /// Forecasts the memory that computing the homology of a Rips complex needs, including the edges.
 /// The engine is run on three small parts of the complex. The memory that it needs for them, apart
-/// from edges and bit rows or adjacency lists, is extrapolated to the entire complex.
+/// from edges and bit rows or adjacency lists, is extrapolated to the entire complex. If the
+/// complex is small, the engine is run on the entire complex instead. The engine is not run on a
+/// forest.
 /// @param cells the number of cells of each dimension, up to listed_rips_dim. @param options must
 ///        name an engine and a dimension, without a collapse.
 MemoryForecast forecast_rips(const RipsGraph& graph, std::span<const double> cells,

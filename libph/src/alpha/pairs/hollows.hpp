@@ -12,8 +12,9 @@ namespace ph::alpha {
 /// Computes homology one dimension below the top dimension by union-find (Delfinado & Edelsbrunner,
 /// An incremental algorithm for Betti numbers of simplicial complexes, 1995). The nodes are the
 /// cells and the outside, which are joined across facets from young to old. A cell that is paired
-/// with a facet is joined from the start to the cell across that facet. A facet that joins two
-/// components gives birth to a class, and the oldest cell of the younger component kills the class.
+/// with a facet is joined from the start to the cell across that facet. The root of a component is
+/// the outside or the cell that enters last. A facet that joins two components gives birth to a
+/// class, and the root that enters earlier kills the class.
 ///
 /// If no facet leads outside, because the triangulation is periodic in all its dimensions, the last
 /// cell that enters gives birth to a class of the top dimension. The engine computes no cycles in
@@ -67,7 +68,7 @@ class Hollows {
     // mutant: alpha-dual-outside
     return node == outside_ ? std::numeric_limits<double>::infinity() : cells_.cell_values[node];
   }
-  // The dual filtration runs from young to old: the elder component is the one whose cell enters
+  // The dual filtration runs from young to old: the elder component is the one whose root enters
   // later.
   bool enters_later(std::uint32_t a, std::uint32_t b) const {
     const double x = value(a), y = value(b);

@@ -66,9 +66,9 @@ SurfaceMesh surface(const AlphaCells& cells, HasCell&& has_cell, HasFacet&& has_
   return mesh;
 }
 
-/// Collects simplices step by step: the critical simplices that enter, their faces, all simplices
-/// in the intervals of these faces, the faces of those simplices, and so on (Bauer & Edelsbrunner
-/// 2017).
+/// Collects simplices step by step: the critical cells and facets that enter, their faces, all
+/// simplices in the intervals of these faces, the faces of those simplices, and so on (Bauer &
+/// Edelsbrunner 2017). Only cells, facets and, in dimension 3, edges are collected.
 class Wrap {
  public:
   Wrap(const AlphaCells& cells, const RunContext& context)

@@ -32,7 +32,8 @@ struct Sites {
   int exponent = 0;
   RawVector<Vector<double>> points;  ///< indexed by site
   std::pmr::vector<double> weights;  ///< indexed by site, or empty if no point has a weight
-  /// For each site, the first point of the input at this place.
+  /// For each site, the point of the input that became the site. It is the first point at this
+  /// place or, with weights, the first of the heaviest points at this place.
   std::pmr::vector<std::uint32_t> input;
   /// The other points of the input at the same places. Each entry consists of such a point, which
   /// is a copy, and its site.

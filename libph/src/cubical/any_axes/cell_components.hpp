@@ -27,7 +27,7 @@ class CellComponents {
   /// Allocates 4 bytes per node.
   CellComponents(const CellGrid& grid, Graph graph, const RunContext& context);
 
-  /// Joins components across bridges, in the order given.
+  /// Joins components across bridges, in the order of the graph.
   /// @param bridges edges or facets that are in no known pair, in the order of the filtration; the
   /// function removes the bridges that join components.
   /// @param on_merge called with (bridge, node that dies); the node is nothing if both components

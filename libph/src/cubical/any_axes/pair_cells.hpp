@@ -6,8 +6,8 @@
 
 namespace ph::cubical {
 
-/// True if `pair_cells` can pair the image: it is not empty, and has at most 8 axes and fewer than
-/// 2^32 cells.
+/// True if `pair_cells` can pair the image: it is not empty, at most 8 of its axes are kept, and it
+/// has fewer than 2^32 cells (see CellGrid).
 bool can_pair_cells(const CubicalImage& grid);
 /// The number of bytes that `pair_cells` keeps for the marks of all cells.
 double bytes_of_cells(const CubicalImage& grid);

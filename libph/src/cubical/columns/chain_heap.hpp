@@ -14,7 +14,7 @@ namespace ph::cubical {
 /// A chain as a heap, youngest cell first. A cell may occur several times. When chains are added,
 /// most terms cancel. However, equal cells are found only at the top of the heap, so terms far
 /// older than the youngest cell would stay for a long time. The heap is therefore consolidated
-/// whenever it has grown to three times its consolidated size.
+/// whenever it has grown to about three times its consolidated size. A short heap may grow more.
 /// @tparam Term an Entry. @tparam precedes true if its first argument is older than the second. It
 /// should be branchless, because processors cannot predict the result.
 template <Field K, class Term, auto precedes>

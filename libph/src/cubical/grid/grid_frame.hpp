@@ -43,7 +43,8 @@ class Divisor {
 /// of the stars*. Voxels that were always there are not cells. Homology is relative to them.
 class GridFrame {
  public:
-  /// True if the image has at least one voxel and at most about 2^31.
+  /// True if the image has at least one voxel and at most about 2^31, and at most
+  /// GridShape::kMostAxes of its axes are kept.
   static bool can_hold(const CubicalImage& grid);
   /// Precondition: can_hold(grid).
   explicit GridFrame(const CubicalImage& grid);

@@ -37,10 +37,12 @@ struct RepresentativeSink {
 bool can_represent_voxels(const CubicalImage& grid);
 
 /// Computes the bars of `pair_voxels`, each with a cycle. If `kind` is voxels, bars of H0 and of
-/// the second highest dimension have a set of voxels instead of a cycle. Preconditions:
-/// can_represent_voxels(grid), and `kind` is cycles or voxels. Time: three to five times the time
-/// of `pair_voxels`. Memory: 20 bytes per voxel, the critical cells and the output. The function
-/// does not work in slabs, so the entire image must fit in memory.
+/// the second highest dimension have a set of voxels instead of a cycle. A bar of the second
+/// highest dimension has a cycle nevertheless if its set would be empty, or if an axis with one
+/// voxel is periodic. Preconditions: can_represent_voxels(grid), and `kind` is cycles or voxels.
+/// Time: three to five times the time of `pair_voxels`. Memory: 20 bytes per voxel, the critical
+/// cells and the output. The function does not work in slabs, so the entire image must fit in
+/// memory.
 template <Field K>
 void represent_voxels(const CubicalImage& grid, const K& field, int max_dim, Representatives kind,
                       const RunContext& context, const RepresentativeSink& sink);

@@ -281,8 +281,9 @@ class SeamForest {
     for_each_in_seams([&](std::uint32_t& root) { root = number[root]; });
     for (std::uint32_t& part : outside) part = number[part];
   }
-  // For each root, the lowest value at which it is connected to a node that is shared with other
-  // layers.
+  // For each root, the first value at which it is connected to a node that is shared with other
+  // layers. The first value is the highest in the graph of the top cells, and the lowest in the
+  // other graph.
   std::pmr::vector<double> when_reached() const {
     std::pmr::vector<double> reached(roots.size(), kNever, &context_.memory);
     for (const Seam* const seam : {&before, &after})  // mutant: seam-before
@@ -302,7 +303,8 @@ class SeamForest {
       for (std::uint32_t& root : seam->roots)
         if (root != Seam::kNone) use(root);
   }
-  // Keeps the first `count` bridges. Only these bridges are still needed.
+  // Keeps `count` bridges, the first in the order of the graph. Only these bridges are still
+  // needed.
   void keep(std::size_t count) {
     if (backwards)
       bridges.erase(bridges.begin(), bridges.end() - static_cast<std::ptrdiff_t>(count));

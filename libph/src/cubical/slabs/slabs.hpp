@@ -22,9 +22,10 @@ namespace ph::cubical {
 /// A ring has at least two slabs, and its first slab and its last slab are also neighbours.
 class Slabs {
  public:
-  /// The number of layers of a slab. If the context specifies a number, that number is used.
-  /// Otherwise a slab occupies at most a quarter of the memory, whatever the values of its voxels
-  /// are. A GridFrame can always hold the slab.
+  /// The number of layers of a slab. The context may specify it. Otherwise a slab occupies at most
+  /// a quarter of the remaining memory, whatever the values of its voxels are. In both cases, a
+  /// slab has at least one layer, and a slab of several layers has at most 2^28 voxels. A GridFrame
+  /// can therefore hold the slab.
   static std::uint64_t layers_that_fit(const LayeredImage& image, const RunContext& context) {
     constexpr double bytes = 128;  // per voxel
     // The limit is a number of voxels; larger slabs are not faster.

@@ -14,7 +14,7 @@ namespace ph::cubical {
 /// The lower stars of a grid, or of some of its layers.
 class StarGrid : public SlabFrame {
  public:
-  /// True if the image has at most three axes and no more voxels than a frame can hold.
+  /// True if at most three axes of the image are kept and a GridFrame can hold the image.
   static bool can_hold(const CubicalImage& grid) {
     return GridShape::count_axes(grid) <= 3 && GridFrame::can_hold(grid);
   }
