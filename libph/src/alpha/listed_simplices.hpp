@@ -11,8 +11,9 @@ namespace ph::alpha {
 /// True if a simplex with this squared radius enters the filtration.
 using Enters = std::function<bool(double)>;
 
-/// Lists all simplices that enter the filtration. They are sorted by dimension and then by
-/// vertices, where the last vertex counts most. Values are squared radii in the units of the sites.
+/// Lists all simplices that enter the filtration. They are sorted by dimension and then by sites,
+/// where the largest site counts most. Copies of sites and the edges to them come last in their
+/// dimensions. Values are squared radii in the units of the sites.
 ExplicitComplex list_simplices(const AlphaCells& cells, const Enters& enters,
                                const RunContext& context);
 

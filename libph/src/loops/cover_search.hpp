@@ -48,8 +48,8 @@ class CoverSearch {
   /// must have on a path.
   void set_target(std::span<const std::uint32_t> cocycles, std::span<const std::uint32_t> values);
 
-  /// Finds a path from `from` to `to`, both included, that has the wanted values and is shorter
-  /// than `bound`.
+  /// Finds a shortest path from `from` to `to`, both included, among the paths that have the wanted
+  /// values and are shorter than `bound`.
   Verdict find(std::uint32_t from, std::uint32_t to, const Around& around, double bound,
                StepBudget& budget, Path& path);
 

@@ -39,7 +39,8 @@ HeldPoints copied(PointsView points, const RunContext& context) {
 
 namespace detail {
 
-/// The data of a filtration. Their memory is counted as long as a copy or a form refers to them.
+/// The data of a filtration. The memory of points that the filtration owns is counted as long as a
+/// copy or a form refers to the data.
 struct HeldInput {
   HeldInput(RipsData data_held, const RunContext& context)
       : data(std::move(data_held)), claim(context.memory, bytes_of(data)) {}

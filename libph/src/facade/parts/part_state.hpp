@@ -90,8 +90,8 @@ struct WholeImage {
   std::uint64_t hash() const;
 };
 
-/// @throws Error (usage) if the image cannot be cut into such parts, (bad_data) if voxels are
-/// missing.
+/// @throws Error (usage) if the options are invalid or the image cannot be cut into such parts;
+/// Error (bad_data) if the number of voxels is not the product of the extents.
 WholeImage checked_whole(const Image& image, int parts, const ImagePartOptions& options);
 
 /// The data from which the computation of a part's loops starts.
