@@ -148,7 +148,8 @@ std::optional<double> threshold_of(const ph_options& given) {
   return std::isnan(given.threshold) ? std::nullopt : std::optional(given.threshold);
 }
 
-/// Runs `compute` on a separate thread while the caller's thread asks whether to stop.
+/// Runs `compute` on a separate thread while the caller's thread asks whether to stop. Without a
+/// function `cancel`, runs it on the caller's thread.
 template <class Compute>
 void watched(const ph_options& options, std::stop_source& stop, const Compute& compute) {
   if (options.cancel == nullptr) return compute();

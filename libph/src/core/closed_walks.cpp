@@ -184,8 +184,9 @@ class Decomposition {
     return any;
   }
 
-  /// Removes all walks that can be reached from a vertex. The rest of the chain is a cycle. Each
-  /// vertex on a path therefore has another edge, and the path never gets stuck.
+  /// Removes closed walks until a vertex has no edge left. Walks that are met on the way are
+  /// removed as well. The rest of the chain is a cycle. Each vertex on a path therefore has another
+  /// edge, and the path gets stuck only at its start.
   void walk_from(std::uint32_t start) {
     path_.clear();
     place_[start] = 0;

@@ -15,8 +15,8 @@ std::string format_size(double bytes) {
     bytes /= 1024;
     ++unit;
   }
-  // Sizes have three digits, or four from 1000 up to the next unit, because units are powers of
-  // 1024.
+  // Sizes have at most three digits. From 999.5 up to the next unit they have at most four, because
+  // units are powers of 1024, and three digits would be rounded to 1e+03.
   constexpr double kFourDigits = 999.5;
   return fmt::format("{:.{}g} {}", bytes, bytes >= kFourDigits ? 4 : 3, kUnits[unit]);
 }

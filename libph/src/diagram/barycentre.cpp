@@ -51,7 +51,8 @@ double root_mean_square(const std::vector<double>& numbers) {
 }
 
 /// The index of the diagram with the least sum of squared distances to all diagrams. If several
-/// diagrams have the least sum, returns the first of them.
+/// diagrams have the least sum, returns the first of them. The distances have a relative error of
+/// up to 1 percent.
 std::size_t medoid(Diagrams diagrams, const RunContext& context) {
   const DistanceMatrix distances = diagram_distances(
       diagrams,
@@ -116,8 +117,9 @@ class Alternation {
       distances.push_back(matching.distance.value);
     return root_mean_square(distances);
   }
-  /// Moves each bar to the mean of its partners in the last `match`. If a bar of a diagram had no
-  /// partner, adds a new bar for it.
+  /// Moves each bar to the mean of its partners in the last `match`. A diagram without a partner
+  /// counts with a point on the diagonal (see mean_of). Drops a bar that had no partner in any
+  /// diagram. If a bar of a diagram had no partner, adds a new bar for it.
   void move() {
     std::vector<std::vector<Bar>> partners(bars_.size());
     std::vector<Bar> moved;

@@ -94,7 +94,8 @@ bool is_obj(std::string_view bytes) {
   return false;
 }
 
-// True if the file is a binary STL, which has a header of 80 bytes, then the number of triangles.
+// True if the file is an STL mesh. A text begins with "solid" and has "facet normal" in it. A
+// binary file has a header of 80 bytes, then the number of triangles.
 bool is_stl(std::string_view bytes, std::size_t size) {
   if (bytes.starts_with("solid") && bytes.find("facet normal") != std::string_view::npos)
     return true;

@@ -17,7 +17,7 @@
 namespace ph::detail {
 namespace {
 
-// The number of coordinates per point in an array that may be an image.
+// The largest number of columns of an array that is read as points without a request.
 constexpr Index kMostCoordinates = 16;
 // An array is read as points if the number of rows is at least this many times the number of
 // columns.

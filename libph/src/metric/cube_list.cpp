@@ -8,10 +8,10 @@ namespace ph {
 CubeList::CubeList(PointsView points, double radius, const RunContext& context)
     : cubes_(&context.memory), points_(&context.memory) {
   // The side of a cube is slightly larger than the radius. Otherwise rounding could put two points
-  // within the radius of each other into cubes that are not adjacent. There are at most 10^9 cubes
-  // per axis. A coordinate in units of cubes therefore has an error of at most 10^-7, which is less
-  // than the extra length. If the radius is 0, cubes of any size are suitable, because equal points
-  // are always in the same cube.
+  // within the radius of each other into cubes that are not adjacent. Coordinates in units of cubes
+  // are at most 10^9 and therefore have an error of at most 3 * 10^-7. The errors of two points
+  // together are less than the extra length of 10^-6. If the radius is 0, cubes of any size are
+  // suitable, because equal points are always in the same cube.
   const double reach = largest_coordinate(points);
   const double edge = std::max(radius * (1 + 1e-6), 1e-9 * reach);
   const double scale = reach > 0 ? 1 / edge : 0;

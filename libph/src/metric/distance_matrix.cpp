@@ -9,7 +9,7 @@ namespace ph {
 
 DistanceMatrix::DistanceMatrix(Index size, std::vector<double> lower, std::vector<double> births)
     : size_(size) {
-  constexpr Index most = Index{1} << 31;  // with more points, the number of pairs would overflow
+  constexpr Index most = Index{1} << 31;  // with more points, the number of bytes would overflow
   if (size < 0 || size > most)            // mutant: matrix-size
     throw Error(ErrorKind::bad_data,
                 fmt::format("distance matrix: found {} points, expected 0 to 2^31", size));

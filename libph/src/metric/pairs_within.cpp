@@ -105,8 +105,8 @@ void for_each_pair_within(PointsView points, double radius, const Visit& visit,
   // Measurements show that computing all pairs of so few points takes little time, because many
   // distances are computed at once. For some inputs, a tree would take longer.
   constexpr Index few = 1 << 14;
-  // The squares of smaller distances underflow, and all points at smaller distances would be in one
-  // cube.
+  // The squares of smaller distances may lose digits to underflow, and all points at smaller
+  // distances would be in one cube.
   constexpr double tiny = 1e-139;
   const bool has_cubes = points.cols() == 0 || (points.cols() <= 3 && radius >= tiny);
   const auto visit_all = has_cubes              ? visit_by_cubes

@@ -10,8 +10,9 @@ namespace {
 // The replacement character U+FFFD.
 constexpr std::string_view kReplacement = "\xef\xbf\xbd";
 
-/// The number of bytes of the UTF-8 character at the start of `text`. It is 0 if XML does not allow
-/// the character.
+/// The number of bytes of the UTF-8 character at the start of `text`. It is 0 for malformed UTF-8
+/// and for the characters that a picture does not show: the control characters of ASCII, U+FFFE and
+/// U+FFFF.
 std::size_t character_length(std::string_view text) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   const unsigned char first = byte(0);

@@ -30,7 +30,8 @@ Colour colour_of_dim(int dim);
 std::string with_subscript(std::string_view letter, int number);
 /// Formats a number as "12,345".
 std::string grouped(std::size_t number);
-/// The characters of a UTF-8 text. Characters that XML does not allow become U+FFFD.
+/// The characters of a UTF-8 text. Control characters of ASCII, U+FFFE, U+FFFF and malformed bytes
+/// become U+FFFD, because XML does not allow most of them.
 std::vector<std::string> characters_of(std::string_view text);
 
 /// An outline that consists of lines, which may be closed, and of circles.
@@ -110,7 +111,7 @@ struct Shape {
   Style style;
 };
 struct Text {
-  double x, y;  // start of its baseline
+  double x, y;  // the place of its anchor on the baseline
   std::string content;
   Anchor anchor;
   double size;
@@ -166,7 +167,8 @@ class Axis {
  public:
   /// @param range the values at the ends of the axis. The options may replace these values. If both
   /// values are equal, the range is widened.
-  /// @throws Error (usage) if the options leave an empty range.
+  /// @throws Error (usage) if the options leave an empty range or an infinite end, or if a
+  /// logarithmic axis would show values that are not above 0.
   Axis(const Range& range, const PlotOptions& options, double from, double to);
 
   double from() const { return from_; }
@@ -237,7 +239,7 @@ std::string to_svg(const Drawing& drawing);
 /// The number of bytes that to_raster needs, including the bytes for writing its result as a PNG.
 std::size_t raster_bytes(const Drawing& drawing);
 
-/// Converts the drawing to RGB. @throws std::bad_alloc.
+/// Converts the drawing to RGB. @throws std::bad_alloc; Error (internal) as Font.
 Raster to_raster(const Drawing& drawing);
 
 }  // namespace ph::plot

@@ -28,8 +28,8 @@ class Coverage {
   /// single area.
   void add_turned(std::span<const Place> corners);
 
-  /// Calls visit(pixel, part) with the number of a pixel, row by row, where 0 < part <= 1. Then
-  /// forgets the areas.
+  /// Calls visit(pixel, part) for each pixel of which more than 1/512 is covered, row by row, where
+  /// `part` is at most 1. Then forgets the areas.
   template <class Visit>
   void take(Visit&& visit);
 

@@ -16,7 +16,7 @@ namespace {
 constexpr double kLeft = 34, kRight = 242;
 constexpr double kInfinityRoom = 14;        // space between the infinity line and the finite values
 constexpr std::size_t kMostMarkers = 1500;  // more markers cannot be distinguished
-// The number of bars drawn as markers if there are too many to draw all of them.
+// The number of finite bars drawn as markers if there are too many bars to draw all of them.
 constexpr std::size_t kCrispBars = 120;
 
 /// Bars of one dimension that coincide in the picture.
@@ -67,7 +67,8 @@ double radius_of(std::size_t count) {
   return 1.7 * (1 + 0.45 * std::log10(static_cast<double>(count)));
 }
 
-/// Draws a different shape for each dimension, because colours may be lost in print.
+/// Draws a different shape for each of four consecutive dimensions, because colours may be lost in
+/// print.
 void add_shape(Outline& to, int dim, double x, double y, double r) {
   switch (dim % 4) {
     case 1:  // a triangle
@@ -191,7 +192,8 @@ class Frame {
   }
 
  private:
-  /// Widens a range by a margin, unless the result would not be finite.
+  /// Widens a range by a margin, unless the result would not be finite. A lower end of 0 and a
+  /// logarithmic range stay as they are.
   static Range widened(Range range, bool logarithmic) {
     if (logarithmic) return range;
     const double margin = 0.03 * (range.high / 2 - range.low / 2) * 2;

@@ -13,7 +13,7 @@ namespace ph::plot {
 
 inline constexpr double kFirstValue = 30, kLastValue = 242;  // start and end of the axis
 inline constexpr double kTriangle = 4.5;                     // room for a triangle after the axis
-inline constexpr std::size_t kRows = 96;      // largest number of lines in one picture
+inline constexpr std::size_t kRows = 96;      // about the largest number of lines in one picture
 inline constexpr double kDensityHeight = 16;  // height of a density with its caption
 
 /// Positions in a list of classes. The first list has the positions of the longest classes,

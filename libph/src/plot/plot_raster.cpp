@@ -169,7 +169,7 @@ class Painter {
   Raster take() { return std::move(raster_); }
 
  private:
-  /// A sample from grey or RGB, with 8 or 16 bits.
+  /// A sample with 8 bits, from a raster in grey or RGB with 8 or 16 bits.
   static std::uint16_t sample(const Raster& raster, Index x, Index y, int channel) {
     const std::uint16_t value = raster.at(x, y, raster.channels < 3 ? 0 : channel);
     return raster.bits == 16 ? static_cast<std::uint16_t>(value >> 8) : value;

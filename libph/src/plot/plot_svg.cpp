@@ -11,7 +11,8 @@
 namespace ph::plot {
 namespace {
 
-/// Escapes text for XML content or attributes. Characters that XML does not allow become U+FFFD.
+/// Escapes text for XML content or attributes. See characters_of for the characters that become
+/// U+FFFD.
 std::string xml_escaped(std::string_view text) {
   std::string out;
   for (const std::string& c : characters_of(text)) {

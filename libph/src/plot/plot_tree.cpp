@@ -31,8 +31,8 @@ class Layout {
   }
 
   std::size_t row(std::size_t k) const { return row_[k]; }
-  /// The position of the elder among the branches that are drawn, or kNone if the branch never
-  /// dies.
+  /// The position of the nearest elder among the branches that are drawn, or kNone if no elder is
+  /// drawn.
   std::size_t elder(std::size_t k) const { return shown_elder(shown_[k]); }
 
  private:

@@ -21,8 +21,8 @@ struct Range {
 };
 
 /// Returns a range that is longer than 0. The result is the given range if possible. If the given
-/// range is a single number, the result is an interval of length `width` around that number. If the
-/// given range is empty, the result is [0, width].
+/// range is a single number, the result is an interval around that number. Its length is `width`,
+/// or more if the number is large. If the given range is empty, the result is [0, width].
 Range widened(const Range& range, double width) {
   if (range.lo > range.hi) return {0, width};
   if (range.lo < range.hi) return range;

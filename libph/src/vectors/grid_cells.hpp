@@ -23,12 +23,12 @@ class GridCells {
   double operator[](std::size_t i) const { return values_[i]; }
 
   /// The first place whose value is at least x, or size() if there is no such place. x must not be
-  /// NaN. Takes O(1) time.
+  /// NaN. Usually takes O(1) time, and O(log size()) time in the worst case.
   std::size_t first_from(double x) const {
     return first(x, [x](double t) { return t >= x; });
   }
   /// The first place where the tent of a bar falls, that is, death - t < t - birth, with rounding.
-  /// Takes O(1) time.
+  /// Takes as much time as `first_from`.
   std::size_t first_falling(const Bar& bar) const {
     return first(bar.birth / 2 + bar.death / 2,
                  [&](double t) { return bar.death - t < t - bar.birth; });

@@ -5,8 +5,8 @@
 namespace ph::vectors {
 
 /// A sum with about twice as many digits as a double. Numbers that are added and later subtracted
-/// leave no rounding error. Source: Knuth, The art of computer programming, volume 2 (the error of
-/// a sum).
+/// leave hardly any rounding error. Source: Knuth, The art of computer programming, volume 2 (the
+/// error of a sum).
 class LongSum {
  public:
   void add(double x) {

@@ -23,7 +23,7 @@ double deviation_of(const std::vector<double>& numbers, double mean) {
   double largest = 0;
   for (const double x : numbers) largest = std::max(largest, std::abs(x - mean));
   if (largest == 0) return 0;
-  LongSum sum;  // numbers are scaled to [0, 1], because small squares would be 0
+  LongSum sum;  // numbers are scaled to [-1, 1], because small squares would be 0
   for (const double x : numbers) sum.add((x - mean) / largest * ((x - mean) / largest));
   // mutant: deviation
   return largest * std::sqrt(sum.value() / static_cast<double>(numbers.size()));

@@ -29,8 +29,8 @@ Status from(const struct stat& status) {
           static_cast<std::uint64_t>(status.st_size), status.st_dev, status.st_ino};
 }
 
-/// A name in `folder` that no other file has. It does not contain the final name of the file,
-/// because that name may already have the maximum length.
+/// A random name in `folder`, which most likely no other file has. It does not contain the final
+/// name of the file, because that name may already have the maximum length.
 std::filesystem::path fresh_name(const std::filesystem::path& folder) {
   std::uint64_t random = 0;
   // getrandom never returns fewer than 8 bytes. If it fails (on an old kernel), the process id

@@ -209,8 +209,8 @@ class Comparison {
     return found;
   }
 
-  /// The cost of the matching in partners_, computed from the distances of its pairs and the
-  /// distances of all other bars from the diagonal.
+  /// The root of the cost of the matching in partners_, without the infinite bars. It is computed
+  /// from the distances of its pairs and the distances of all other bars from the diagonal.
   double length_of_matching() const {
     const diagram::GroundCost cost(1, options_.ground);
     std::vector<double> lengths;

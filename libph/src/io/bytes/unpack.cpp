@@ -167,8 +167,8 @@ void gunzip_into(Buffer& bytes, const Input& input, std::size_t most) {
   }
 }
 
-// The initial size of the buffer. It is the stated size, but at most four times the packed size,
-// because the stated size may be false.
+// The initial size of the buffer. It is about the stated size, but at most four times the packed
+// size, because the stated size may be false. It is always larger than kStep.
 std::size_t likely_size(std::string_view packed) {
   return std::clamp(stated_size(packed), kStep, std::max(4 * packed.size(), kStep)) + 1;
 }

@@ -34,7 +34,7 @@ ScratchFile gunzip_to_file(const Input& packed);
 /// Unpacks a raw deflate stream, which must consist of exactly `packed_size` bytes and expand to
 /// exactly `size` bytes.
 /// @param offset the start of the stream in the input.
-/// @throws Error (bad_data) if the stream has other sizes.
+/// @throws Error (bad_data) if the stream is damaged or has other sizes.
 std::pmr::vector<char> inflate_raw(const Input& input, std::size_t offset, std::size_t packed_size,
                                    std::size_t size);
 

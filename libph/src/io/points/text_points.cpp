@@ -149,7 +149,7 @@ TextTable read_text_table(const Input& input, Allow allow, const ReadOptions& op
 
   // There are at most as many rows as lines. A cell may be empty, but it takes one byte with its
   // separator or the line end. A row therefore takes at least one byte per cell. Whatever the file
-  // contains, the table takes at most eight times the size of the file.
+  // contains, the table takes at most eight times the size of the file, plus two rows.
   const std::string_view rest = input.text().substr(lines.offset());
   const std::size_t by_lines =
       static_cast<std::size_t>(std::count(rest.begin(), rest.end(), '\n')) + 2;

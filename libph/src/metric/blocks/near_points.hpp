@@ -56,7 +56,7 @@ class NearPoints {
   }
 
   /// True if `block`, and not `other`, looks for edges between the two blocks. Each block looks for
-  /// edges to half of the other blocks.
+  /// edges to about half of the other blocks.
   static bool looks_for(std::uint32_t block, std::uint32_t other, std::uint32_t blocks);
 
  private:

@@ -57,8 +57,8 @@ class CurveBuilder {
 template <class T>
 class Histogram {
   static constexpr std::size_t kBins = std::size_t{1} << 8 * sizeof(T);
-  // There are several copies, because consecutive additions to the same sum would have to wait for
-  // each other.
+  // For keys of one byte there are several copies, because consecutive additions to the same sum
+  // would have to wait for each other.
   static constexpr std::size_t kCopies = sizeof(T) == 1 ? 4 : 1;
   static std::size_t bin_of(T key) {
     return static_cast<std::size_t>(key - std::numeric_limits<T>::min());
