@@ -216,7 +216,7 @@ Metadata metadata_of(const ScenePage& page) {
   if (!surface) meta.value_unit = "m";
   meta.barcodes.push_back({meta.title});
   CloudMeta cloud{.unit = "m", .viewpoint = s.tree.viewpoint};
-  // In a camera's frame, y points down. In other clouds, z points up.
+  // In a camera's frame, y points down. In other clouds, the normal of the plane points up.
   if (s.tree.height > 1)
     cloud.up = {0, -1, 0};
   else if (s.tree.plane)

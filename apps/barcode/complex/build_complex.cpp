@@ -199,8 +199,8 @@ class Builder {
     return Rips(distances, std::move(options), context_);
   }
 
-  /// The numbers in a file that has one number for each point of the input. These include points
-  /// that were left out.
+  /// The numbers of the points, from a file that has one number for each point of the input. The
+  /// file also has numbers for the points that were left out.
   /// @param path the file; if it is empty, there are no numbers.
   std::vector<double> values_by_point(const std::string& path, Index points,
                                       double least = std::numeric_limits<double>::lowest(),
@@ -257,7 +257,7 @@ class Builder {
                               "--values FILE gives values to the vertices",
                               mark_place(input.name), v));
     };
-    // Each vertex needs a line. If an id exceeds the number of lines, a line is missing.
+    // Each vertex needs a line. If an id is at least the number of simplices, a line is missing.
     if (largest >= static_cast<Index>(list.size())) fail_at(largest);
     std::vector<double> values(static_cast<std::size_t>(largest + 1),
                                std::numeric_limits<double>::quiet_NaN());

@@ -18,8 +18,8 @@ constexpr ph::app::Program kProgram{
     "ph-barcode-mpi",
     "use more ranks on more machines, compute less (--max-dim), or raise --memory-limit"};
 
-/// True if an option such as --help is given. This option must be answered without MPI, which may
-/// be missing on a machine where users only ask for help.
+/// True if -h or --help is given. This option must be answered without MPI, which may be missing on
+/// a machine where users only ask for help.
 bool is_help_asked(int argc, char** argv) {
   for (int i = 1; i < argc; ++i) {
     const std::string_view word = argv[i];

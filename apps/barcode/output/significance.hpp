@@ -13,8 +13,8 @@ namespace ph::barcode {
 /// meaningless or no output has room for them.
 void require_significance(BarcodeFormat format, const Job& job);
 
-/// For each bar, its p-value multiplied by the number of tested bars of its dimension. The product
-/// is NaN for components and for bars that never die.
+/// For each bar, its p-value multiplied by the number of tested bars of its dimension, but at most
+/// 1. The number is NaN for components, for bars that never die and for bars of length 0.
 /// @param filtration the filtration of the bars.
 std::vector<double> p_values_of(const Barcode& barcode, DistanceFiltration filtration);
 

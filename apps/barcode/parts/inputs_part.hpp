@@ -23,7 +23,7 @@ class InputsPart {
   struct Result {
     std::size_t input = 0;  ///< the number of the input
     int code = 0;           ///< the exit code of the program for this input
-    std::string failure;    ///< the reason if there are no bars; empty if there are bars
+    std::string failure;    ///< the reason if the input failed; empty otherwise
     Barcode bars;
   };
 

@@ -16,7 +16,7 @@
 namespace ph::barcode {
 namespace {
 
-/// Keeps only bars longer than the user's limit.
+/// Keeps only infinite bars and bars longer than the user's limit.
 Barcode longer_than(double length, const Barcode& bars) {
   Barcode kept(bars.cell_kind());
   for (std::size_t i = 0; i < bars.size(); ++i) {

@@ -66,7 +66,8 @@ std::optional<std::invoke_result_t<OfBytes, std::span<const std::byte>>> kept_pa
 /// users.
 std::string write_part_file(app::Output& output, std::span<const std::byte> bytes);
 
-/// Writes the bars of a complete result, without bars shorter than the user's limit.
+/// Writes the bars of a complete result, without finite bars that are not longer than the user's
+/// limit.
 Outcome write_bars(Barcode bars, BarcodeInfo info, Outputs& outputs, const Job& job,
                    app::Session& session);
 

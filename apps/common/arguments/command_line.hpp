@@ -19,7 +19,7 @@ enum class ProgressMode { automatic, bar, json, none };
 /// The options that all programs share.
 struct CommonOptions {
   int threads = 0;  ///< 0 means one per core
-  /// The limit in bytes. The default is the memory of the machine.
+  /// The limit in bytes. The default is machine_memory().
   std::optional<std::uint64_t> memory_limit;
   int slab_layers = 0;  ///< layers of images, as in RunContext
   ProgressMode progress = ProgressMode::automatic;

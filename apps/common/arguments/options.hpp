@@ -28,7 +28,7 @@ struct OptionName {
 /// Registers the options of a program. Each call states the names of an option, the situations in
 /// which it has an effect, a placeholder for its value, a sentence for --help, and the destination
 /// of the value. The destination must outlive `cli`. Errors of functions that read values are
-/// passed on unchanged. An option that is given twice is an error.
+/// passed on unchanged. An option that is given twice is an error, unless `repeated` registered it.
 class Options {
  public:
   explicit Options(CLI::App& cli) : cli_(cli) {}

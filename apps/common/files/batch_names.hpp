@@ -7,9 +7,10 @@
 
 namespace ph::app {
 
-/// Names for the outputs of several inputs. Each name is the shortest unique name of an input:
-/// without its extension, with its extension, or with its folders. Two inputs have the same name
-/// only if the same file was named twice.
+/// Names for the outputs of several inputs. The name of an input is its file name without the
+/// extension. If several inputs have this name, it is the file name with its extension and, if
+/// several inputs have that name as well, also with its folders. Two inputs may still have the same
+/// name, for example a file that is named twice, or a/b/c and a-b/c.
 std::vector<std::string> output_names(const std::vector<std::string>& inputs);
 
 /// True if a path has a place for the name of each input, because it is FOLDER/ or the file name

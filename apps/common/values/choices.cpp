@@ -56,7 +56,7 @@ std::optional<std::string_view> nearest_name(std::string_view typed,
       best_distance = distance;
     }
   }
-  // At least two thirds of the typed letters must be right, and at most two letters may be wrong.
+  // One edit is allowed, or two edits in a word of at least six letters.
   const std::size_t enough = std::clamp<std::size_t>(word.size() / 3, 1, 2);  // mutant: hint-far
   if (best_distance > enough) return std::nullopt;
   return best;

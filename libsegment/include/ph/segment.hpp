@@ -15,8 +15,8 @@
 
 /// Segmentation of RGB-D scenes by persistent homology. All lengths are in metres. Method paper
 /// depends on the unit only through the defaults of its options; it therefore accepts any other
-/// unit, if all lengths are given in that unit. The other methods also use the unit when they join
-/// parts behind an occluder that hides less than 15 cm.
+/// unit, if all lengths are given in that unit. The other methods also contain lengths in metres,
+/// such as the least area of a table and the widest occluder behind which parts are joined.
 namespace ph::segment {
 
 /// The parts of a cloud that the pipeline reads: plain arrays, owned by the caller.
@@ -54,9 +54,10 @@ struct SegmentOptions {
   /// Half the plane's thickness, metres, > 0; see plane_margin.
   std::optional<double> plane_distance = {};
   /// Methods surface and supervoxels: the noise of depth grows with the square of the range, and so
-  /// does the margin of the plane. At a range of one metre, half the margin is at least this many
-  /// metres (>= 0) and at least four standard deviations of the measured noise; 0: the margin is
-  /// plane_distance everywhere. If a smaller plane_distance is given, it takes precedence.
+  /// does the margin of the plane. At a range of one metre, the margin is at least this many metres
+  /// (>= 0) and at least four standard deviations of the measured noise; 0: the margin is
+  /// plane_distance everywhere. If a smaller plane_distance is given, it replaces this number, but
+  /// not the measured noise.
   double plane_noise = 0.005;
   /// Position of the sensor. By default it is where the pixels' rays of an organised cloud meet, if
   /// this place can be determined and differs from the cloud's viewpoint; otherwise it is the

@@ -17,8 +17,8 @@ struct Surface {
 };
 
 /// Joins the visible parts of one object. Two parts belong together in each of these cases:
-/// - They meet without a seam, that is, the surface between them is not concave. An example is the
-///   rim between the inside and the outside of a bowl.
+/// - They share a rim, like the inside and the outside of a bowl (see join_around_rims).
+/// - Their surfaces continue each other behind an occluder that hides at most 15 cm.
 /// @param part_of for each voxel, one of the voxels of its part. @param min_size parts with fewer
 /// voxels are not joined.
 /// @return for each voxel, one of the voxels of its object. Takes O(voxels log voxels + pairs)

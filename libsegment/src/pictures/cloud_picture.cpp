@@ -89,7 +89,8 @@ Shown shown(const Cloud* cloud, const SceneTree& scene, std::span<const std::uin
   return shown;
 }
 
-/// The upward direction. In a camera's frame, y points down. In other clouds, z points up.
+/// The upward direction. An organised cloud is in a camera's frame, in which y points down. In
+/// other clouds, the normal of the plane points up or, without a plane, z.
 Vector3d up_of(const SceneTree& scene) {
   if (scene.height > 1) return {0, -1, 0};
   return scene.plane ? vector(scene.plane->normal) : Vector3d(0, 0, 1);
@@ -310,8 +311,8 @@ std::vector<std::optional<std::array<double, 2>>> middles_of(const Shown& shown,
     seen[i].x += x;
     seen[i].y += y;
   });
-  /// Counts how many of four distances can be walked left, right, up and down without leaving the
-  /// segment.
+  /// Counts distances from the shortest on, as long as the pixels at this distance to the left, to
+  /// the right, above and below belong to the segment. There are four distances.
   const auto room_at = [&](int x, int y) {
     const std::uint32_t label = label_at(x, y);
     int room = 0;

@@ -51,8 +51,9 @@ PlaneSearch find_plane(const CloudView& cloud, const std::vector<Index>& points,
 
 /// Finds the supporting plane. It is the largest plane, unless nothing is seen behind it. Such a
 /// plane may be a wall; of this plane and the next largest ones, the support is then the plane on
-/// which most things stand. A plane behind which the surface goes on is a face of an object and
-/// supports nothing. Parameters as for find_plane.
+/// which most things stand. There is no support if the surface goes on behind the largest plane,
+/// which is then a face of an object. There is also none if this plane is smaller than a table and
+/// nothing is in front of it. Parameters as for find_plane.
 PlaneSearch find_support(const CloudView& cloud, const std::vector<Index>& points,
                          const PlaneMargin& margin, const std::optional<Plane>& guess = {});
 

@@ -5,7 +5,8 @@
 namespace ph::segment {
 
 /// Checks a cloud and the options for it. @throws Error (usage), which names an option that is out
-/// of its range; Error (bad_data) if the number of coordinates is not a multiple of three.
+/// of its range; Error (bad_data) if the number of coordinates is not a multiple of three, or if
+/// the number of points does not match the rows and columns.
 void validate(const CloudView& cloud, const SegmentOptions& options);
 /// Checks a scene. @throws Error (bad_data) unless its arrays have the lengths that it states, and
 /// all indices in them exist.

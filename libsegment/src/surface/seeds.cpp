@@ -59,8 +59,8 @@ class Cubes {
   template <class Visit>
   void for_each_near(std::uint32_t i, double radius, Visit&& visit) const {
     const double reach = std::ceil(radius / edge_);
-    // All points are visited if the search would look at as many cubes as exist. An infinite radius
-    // makes the comparison false, and all points are then also visited.
+    // All points are visited if the search would look at as many rows of cubes as there are cubes.
+    // An infinite radius makes the comparison false, and all points are then also visited.
     if (!(std::pow(2 * reach + 1, 2) < static_cast<double>(cubes_.size()))) {
       for (std::uint32_t k = 0; k < points_.rows(); ++k) visit(k);
       return;

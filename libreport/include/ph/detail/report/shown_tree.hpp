@@ -64,7 +64,8 @@ struct ShownTree {
 };
 
 /// The merge tree of a complex. Empty if its vertices do not correspond to the input (some points
-/// are not vertices, or vertices are corners between voxels), or if it has too many vertices.
+/// are not vertices, or vertices are corners between voxels), if listed cells have a threshold, if
+/// an alpha complex is periodic, or if an image has too many voxels.
 /// @throws Error (resource, cancelled).
 std::optional<MergeTree> whole_tree(const AnyComplex& complex, const RunContext& context);
 

@@ -15,7 +15,7 @@ struct DepthSource {
 };
 
 /// Warnings that a user should read before trusting the result, one line each: the difference that
-/// the check found, a missing plane, implausible units or an implausible camera.
+/// the check found, a missing plane, and implausible units, coordinates, cameras or viewpoints.
 /// @param cloud null: a stored tree was cut. @param depth null: the input was not a depth image.
 std::vector<Message> notes(const Segmentation& segmentation, const SegmentOptions& options,
                            const Cloud* cloud, const DepthSource* depth);
