@@ -18,7 +18,7 @@ std::vector<std::string> output_names(const std::vector<std::string>& inputs);
 bool names_each(const std::string& path);
 
 /// The output file for one of several inputs. If the pattern is a folder, the output is a file in
-/// this folder with the name of the input. Otherwise the name of the input replaces `*`.
+/// this folder with the name of the input. Otherwise the name of the input replaces the last `*`.
 /// @param extension the extension of a file in a folder, with its dot.
 std::string filled(const std::string& pattern, const std::string& name, std::string_view extension);
 

@@ -20,7 +20,8 @@ namespace ph::report {
 ContractedTree contracted(const MergeTree& tree, CutRule rule, double from, Index min_part,
                           std::span<const std::uint32_t> points, const RunContext& context);
 
-/// The least cut at which contracted() keeps at most `most` merges.
+/// The least level at which a cut lets contracted() keep at most `most` merges. If more merges than
+/// that have the largest level, a cut by persistence keeps all of them.
 double least_cut(const MergeTree& tree, CutRule rule, std::size_t most);
 
 /// Finds the bar of H0 that dies in each merge. Bars and merges are matched by birth and death. If

@@ -30,8 +30,9 @@ struct VoxelSets {
   std::string note() const;
 };
 
-/// The sets of the most persistent bars of a barcode with Representatives::voxels, as far as the
-/// budget allows. Empty for any other barcode.
+/// The sets of the bars of a barcode with Representatives::voxels, most persistent first, as far as
+/// the budget allows. If a set does not fit, smaller sets of less persistent bars may still follow.
+/// Empty for any other barcode.
 /// @throws Error (resource, cancelled).
 VoxelSets voxel_sets(const Barcode& barcode, const RunContext& context, VoxelBudget budget = {});
 

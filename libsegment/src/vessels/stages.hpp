@@ -25,7 +25,7 @@ bool may_be_in_opening(const Plane& plane, const Vec3& point, const Vec3& voxel)
 /// @param in_range all points in range, some of which may be inside a vessel.
 /// @param points the points in the grid. The points of the bottoms are appended. In
 /// `grid.voxel_of`, each of these points gets the lowest voxel of the object near the axis of the
-/// opening. Takes O(voxels + points near the plane) time for each rim.
+/// opening. Takes O(voxels + points in range) time for each rim.
 void assign_points_in_openings(const CloudView& cloud, const std::vector<Index>& in_range,
                                const Plane& plane, double voxel,
                                const std::vector<Index>& object_of, Index min_size,

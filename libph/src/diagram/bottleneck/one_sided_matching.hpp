@@ -27,7 +27,7 @@ class OneSidedMatching {
 
   /// Narrows down the least radius r >= bounds.lower with the following property: all bars farther
   /// than r from the diagonal can be paired with bars at a distance of at most r. Stops when the
-  /// accuracy is sufficient, or when r is known to be at most bounds.value.
+  /// accuracy is sufficient, or when r is known to be at most bounds.value or above limits.at_most.
   /// @param bounds bounds.lower must be at least the result of lower_bound.
   /// @return the bounds of r.
   DistanceBounds narrow(const DistanceBounds& bounds, const DistanceLimits& limits);

@@ -46,8 +46,8 @@ struct NpyLayout {
 NpyLayout npy_layout(const Input& input);
 
 /// True if data made from an input should stay in a file. This is the case if the data, which have
-/// `bytes` bytes, need more than a third of the remaining memory, or if the input itself stays in a
-/// file.
+/// `bytes` bytes, are larger than 1 MiB and need more than a third of the remaining memory, or if
+/// the input itself stays in a file.
 bool stays_in_file(const Input& input, std::size_t bytes);
 
 /// Counts the elements of an array. They must end exactly at the end of the input.
