@@ -69,7 +69,7 @@ std::vector<std::string> names_of(const Fit& fit);
 bool may_keep_infinite(Kind kind);
 
 /// Rewords an error of a library function that received the bars of an input. The message begins
-/// with the name of the input instead of the function's name, and suggests the option that helps.
+/// with the name of the input instead of the function's name.
 Error about_input(const Error& error, std::string_view name);
 
 /// The bars of a block in the form that its function expects. @param name the name of the input,

@@ -41,8 +41,9 @@ struct CloudView {
 /// distance of about one metre.
 struct SegmentOptions {
   Method method = Method::surface;
-  /// Edge of a voxel, metres, > 0. If not given: see voxel_size; method surface uses a larger edge
-  /// if the points are so far apart that voxels of this size would not touch.
+  /// Edge of a voxel, metres, > 0. If not given: see voxel_size; methods surface and supervoxels
+  /// use a larger edge if the points are so far apart that voxels of this size would not touch, and
+  /// method surface also if the points are far from the viewpoint.
   std::optional<double> voxel = {};
   std::optional<Index> min_size = {};  ///< fewest voxels of a segment, >= 1; see cut
   double max_range = 2.0;        ///< largest distance from the viewpoint, metres; inf: all points

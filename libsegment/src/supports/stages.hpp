@@ -26,10 +26,10 @@ std::optional<LowerSupport> find_lower_support(const CloudView& cloud,
                                                const std::vector<Index>& points, const Plane& upper,
                                                double least_margin);
 
-/// Determines what each segment stands on. A segment stands on a support if it reaches down to the
-/// support, that is, if some of its points are as low as the support. Otherwise it stands on the
-/// segment that it touches most, if they touch at its own lower end but not at the lower end of the
-/// other segment. Every segment is an object.
+/// Determines what each segment stands on. A segment stands on a removed support if it reaches down
+/// to it, that is, if some of its points are as low as this support. It stands on a support among
+/// the components if it touches this support. Otherwise it stands on the segment that it touches
+/// most among those that it touches at its own lower end but not at their lower ends.
 /// @param pairs pairs of voxels that are near each other.
 void find_what_it_stands_on(const SceneTree& scene, std::span<const VoxelPair> pairs,
                             SceneCut& cut);
