@@ -69,7 +69,8 @@ std::vector<Places> places_of(const Job& job, const std::vector<std::string>& in
   if (format != BarcodeFormat::none && !is_place && !job.results.dry_run)
     throw Error(
         ErrorKind::usage,
-        fmt::format("--output: found '{}', expected a folder for several inputs: -o FOLDER/",
+        fmt::format("--output: found '{}', expected a folder (-o FOLDER/) or a * for the names of "
+                    "several inputs",
                     output));
   const std::vector<std::string> names = app::output_names(inputs);
   const bool writes = format != BarcodeFormat::none || !job.places.plots.empty() ||

@@ -144,7 +144,8 @@ def _numbers_of_objects(array: NDArray[Any], name: str) -> NDArray[np.float64]:
 
 def _too_large(name: str, index: Sequence[int], value: Any) -> DataError:
     return DataError(f"{name}: {place_of(index)}: found {value}, expected whole numbers of at most "
-                     "2**53, which float64 holds exactly; .astype(float) rounds them")
+                     "2**53 in absolute value, which float64 holds exactly; .astype(float) rounds "
+                     "them")
 
 
 def as_float64(array: NDArray[Any], name: str, mask: NDArray[np.bool_] | None = None
@@ -279,7 +280,8 @@ def as_integers(data: Any, name: str) -> NDArray[np.int64]:
     if wrong.any():
         index = np.unravel_index(int(np.argmax(wrong)), array.shape)
         raise DataError(f"{name}: {place_of([int(i) for i in index])}: found {array[index]}, "
-                        "expected a whole number")
+                        "expected a whole number, as a float at most 2**53 in absolute value, as "
+                        "an integer below 2**63")
     return np.ascontiguousarray(numbers)
 
 

@@ -119,7 +119,8 @@ def found_by(path: Any, format: Any, values: Any, nan: Any, columns: Any, array:
         if dtype.kind not in "uif" or dtype.itemsize > 8:
             raise TypeError
     except TypeError:
-        raise _options.refuse("raw_dtype", raw_dtype, "whole numbers or floats") from None
+        raise _options.refuse("raw_dtype", raw_dtype, "whole numbers or floats of at most 8 bytes"
+                              ) from None
     options = {
         "nan": _options.choice("nan", nan, ["error", "drop"]),
         "columns": [] if columns is None else [str(column) for column in (

@@ -120,7 +120,7 @@ def axes(name: str, value: Any, count: int) -> list[bool]:
     >>> axes("periodic", [0, -1], 3)
     [True, False, True]
     """
-    expected = f"axes from 0 to {count - 1}, {count} bools, or True"
+    expected = f"axes from {-count} to {count - 1}, {count} bools, True or False"
     if isinstance(value, bool):
         return [value] * count
     if isinstance(value, (str, bytes)):

@@ -129,7 +129,7 @@ def _loops_of(o: dict[str, Any], default: str) -> str:
     loops = _options.choice("loops", o["loops"], [None, "none", "plain", "tight"])
     if o["representatives"] not in ("cycles", "voxels"):
         if loops not in (None, "none"):
-            raise UsageError(f"loops: does nothing without representatives='cycles', found "
+            raise UsageError("loops: does nothing without cycles as representatives, found "
                              f"representatives={o['representatives']!r}")
         return "none"
     if loops == "tight" and default != "tight":

@@ -37,8 +37,9 @@ void take_report(Job& job, const std::string& path) {
   report::require_built_in();
   const bool is_place = path.ends_with('/') || app::is_folder(path);
   if (path != "-" && !is_place && !ends_in(path, ".html") && !ends_in(path, ".htm"))
-    throw Error(ErrorKind::usage,
-                fmt::format("--report: found '{}', expected a name that ends in .html", path));
+    throw Error(
+        ErrorKind::usage,
+        fmt::format("--report: found '{}', expected a name that ends in .html or .htm", path));
   job.places.report = path;
 }
 
@@ -181,7 +182,7 @@ bool take_word(Job& job, app::PlotArguments& plots) {
     job.results.output_format = BarcodeFormat::none;
   if (plots.paths.empty() && job.places.report.empty() &&
       job.results.output_format == BarcodeFormat::none)
-    throw Error(ErrorKind::usage, "plot: expected -o FILE.svg or -o FILE.png");
+    throw Error(ErrorKind::usage, "plot: expected an output, such as -o FILE.svg or -o FILE.png");
   return is_picture;
 }
 
@@ -211,8 +212,8 @@ void check_together(Job& job) {
   const Engine engine = job.question.options.engine;
   if (job.question.options.representatives != Representatives::none && engine == Engine::standard)
     reject(
-        fmt::format("--engine: found {}, which gives no representatives; expected auto, twist or "
-                    "cohomology",
+        fmt::format("--engine: found {}, which gives no representatives; expected auto, twist, "
+                    "cohomology or another engine that gives them",
                     engine.name()));
   const bool has_cycles = job.question.options.representatives == Representatives::cycles ||
                           job.question.options.representatives == Representatives::voxels;

@@ -103,7 +103,7 @@ class Builder {
       const auto name = [](ComplexKind k) { return complex_names()[static_cast<std::size_t>(k)]; };
       throw Error(
           ErrorKind::usage,
-          fmt::format("--complex: found {}, expected {} for {}{}",
+          fmt::format("--complex: found {0}, expected a complex of {2}, such as {1}{3}",
                       job_.question.own_complex ? job_.question.own_complex->name : name(kind),
                       name(*kinds.begin()), data,
                       kind == ComplexKind::lower_star

@@ -86,10 +86,11 @@ Outcome join_cloud_parts(const std::vector<PartFile>& files, const Job& job,
     return {app::kOk, fmt::format("{}: {}", words, write_part_file(output, all->bytes()))};
   }
   if (!all->is_whole())
-    throw Error(ErrorKind::bad_data,
-                fmt::format("--join: found {}, expected all (missing: part {}); -o FILE.ph joins "
-                            "those given",
-                            words, all->missing().front() + 1));
+    throw Error(
+        ErrorKind::bad_data,
+        fmt::format("--join: found {}, expected all (first missing: part {}); -o FILE.ph joins "
+                    "those given",
+                    words, all->missing().front() + 1));
   Outputs outputs(job.places);
   const BarcodeInfo info = info_of(
       *all, fmt::format("{} points, {}", all->points(), app::count_of(files.size(), "part file")),

@@ -93,7 +93,7 @@ void require_inputs(const Arguments& a) {
   const bool depth = !a.image.depth.empty(), several = a.is_stream();
   const auto reject = [](const std::string& what) { throw Error(ErrorKind::usage, what); };
   if (a.inputs.empty() && a.frames_from.empty() && !depth)
-    reject("expected INPUT or --depth; see --help");
+    reject("expected INPUT, --frames-from or --depth; see --help");
   if (!a.frames_from.empty() && depth)
     reject("--frames-from: found --depth as well, expected one of them");
   if (!a.inputs.empty() && depth) reject("found both INPUT and --depth, expected one of them");
@@ -107,9 +107,11 @@ void require_inputs(const Arguments& a) {
     reject("INPUT: standard input can be read once only");
   if (several && depth)
     reject(
-        "--depth: takes one frame only; give several as INPUT, as a folder, or with --frames-from");
+        "--depth: found an output for several frames, expected a file for one; give several as "
+        "INPUT, as a folder, or with --frames-from");
   if (a.signatures && a.files.json.empty()) reject("--signatures: expected --json with it");
-  if (several && a.explain) reject("--explain takes one input only");
+  if (several && a.explain)
+    reject("--explain: found several inputs or an output for several, expected one input");
   if (!several && a.stable_labels) reject("--stable-labels: expected several frames");
 }
 
@@ -120,8 +122,11 @@ void require_consistent(const Arguments& a) {
     throw Error(ErrorKind::usage, "--depth: expected --camera or --intrinsics FX,FY,CX,CY with it");
   }
   if (a.explain && a.files.to_standard_output()) {
-    throw Error(ErrorKind::usage,
-                "--explain: found a second result for standard output, expected a file for it");
+    const std::vector<app::Written> outputs = a.files.written();
+    throw Error(
+        ErrorKind::usage,
+        fmt::format("--explain: standard output already has the result of {0}; use {0} FILE",
+                    std::ranges::find(outputs, "-", &app::Written::path)->option));
   }
   if (!depth && !a.image.colour.empty()) {
     throw Error(ErrorKind::usage, "--color: expected --depth with it");

@@ -180,7 +180,7 @@ ExplicitComplex ExplicitComplex::from_boundary(const BoundaryMatrix& matrix, con
     for (std::size_t k = matrix.offsets[i]; k < matrix.offsets[i + 1]; ++k) {
       const Index row = matrix.rows[k];
       if (row < 0 || static_cast<std::size_t>(row) >= n)
-        fail(name, i, fmt::format("facet: found {}, expected a cell below {}", row, n));
+        fail(name, i, fmt::format("facet: found {}, expected a cell >= 0 and below {}", row, n));
       const auto facet = static_cast<std::size_t>(row);
       if (matrix.dims[facet] != matrix.dims[i] - 1) {
         fail(name, i,

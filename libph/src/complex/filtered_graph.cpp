@@ -34,8 +34,9 @@ FilteredGraph::FilteredGraph(std::span<const double> births, std::size_t edge_co
 FilteredGraph::Edge FilteredGraph::edge_between(const WeightedEdge& e) const {
   const Index u = std::min(e.u, e.v), v = std::max(e.u, e.v);
   if (u < 0 || v >= size()) {
-    throw Error(ErrorKind::bad_data,
-                fmt::format("edge ({}, {}): expected vertices below {}", e.u, e.v, size()));
+    throw Error(
+        ErrorKind::bad_data,
+        fmt::format("edge ({}, {}): expected vertices >= 0 and below {}", e.u, e.v, size()));
   }
   return {static_cast<std::uint32_t>(u), static_cast<std::uint32_t>(v),
           std::max(births_[static_cast<std::size_t>(u)], births_[static_cast<std::size_t>(v)])};

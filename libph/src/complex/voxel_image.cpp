@@ -68,7 +68,8 @@ class Envelope {
 
 void check(PointsView points, double voxel, Index margin) {
   if (!(voxel > 0) || !std::isfinite(voxel))
-    throw Error(ErrorKind::usage, fmt::format("voxel: found {}, expected more than 0", voxel));
+    throw Error(ErrorKind::usage,
+                fmt::format("voxel: found {}, expected a finite number above 0", voxel));
   if (margin < 0)
     throw Error(ErrorKind::usage, fmt::format("margin: found {}, expected 0 or more", margin));
   if (points.cols() < 1 || points.cols() > Cubical::kMaxDim) {

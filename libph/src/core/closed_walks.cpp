@@ -258,7 +258,8 @@ std::size_t bytes_of(std::span<const BarLoops> loops) {
 std::vector<Loop> closed_walks(const InputChain& cycle, std::int64_t field,
                                std::span<const Index> periods, const RunContext& context) {
   if (!is_field_characteristic(field))
-    throw Error(ErrorKind::usage, fmt::format("field: found {}, expected a prime", field));
+    throw Error(ErrorKind::usage,
+                fmt::format("field: found {}, expected a prime below 2^31", field));
   return Decomposition(cycle, field, periods, context).take_apart();
 }
 

@@ -109,7 +109,7 @@ void check_part(const Input& input, Format format, const ReadOptions& options) {
   const bool is_table = format == Format::points || format == Format::distance ||
                         format == Format::grid || format == Format::npy || format == Format::npz;
   if (!options.columns.empty() && !is_table)
-    refuse(Setting::columns, "tables of numbers (text or NPY)");
+    refuse(Setting::columns, "tables of numbers (text, NPY or NPZ)");
   if (options.channel != Channel::automatic && format != Format::png)
     refuse(Setting::channel, "PNG pictures");
   if (format == Format::ply && !input.member().empty()) {

@@ -14,7 +14,7 @@ namespace {
 void check(const WeightedEdge& e, Index size) {
   if (e.u < 0 || e.v < 0 || e.u >= size || e.v >= size || e.u == e.v) {
     throw Error(ErrorKind::bad_data, fmt::format("edge ({}, {}): expected two different vertices "
-                                                 "below {}",
+                                                 ">= 0 and below {}",
                                                  e.u, e.v, size));
   }
   if (!(e.value >= 0)) {

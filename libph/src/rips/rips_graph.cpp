@@ -14,9 +14,8 @@ namespace ph {
 
 void RipsGraph::check_size(Index size) {
   if (size < 0 || size >= Index{UINT32_MAX}) {
-    throw Error(
-        ErrorKind::resource,
-        fmt::format("Rips filtration: found {} points, expected fewer than 2^32 - 1", size));
+    throw Error(ErrorKind::resource,
+                fmt::format("Rips filtration: found {} points, expected 0 to 2^32 - 2", size));
   }
 }
 

@@ -9,8 +9,9 @@ namespace ph {
 
 void SparseRips::check_epsilon(double epsilon) {
   if (!(epsilon > 0 && epsilon <= std::numeric_limits<double>::max())) {
-    throw Error(ErrorKind::usage,
-                fmt::format("sparse Rips: found epsilon {}, expected a number above 0", epsilon));
+    throw Error(
+        ErrorKind::usage,
+        fmt::format("sparse Rips: found epsilon {}, expected a finite number above 0", epsilon));
   }
 }
 

@@ -40,8 +40,8 @@ void check(const Grid& grid, std::string_view function) {
     return;
   throw Error(ErrorKind::usage,
               fmt::format("{}: grid: found {} points from {} to {}, expected at least 1, from a "
-                          "finite number to a larger one",
-                          mark_place(function), grid.points, grid.lo, grid.hi));
+                          "number to a larger one, both at most {} in absolute value",
+                          mark_place(function), grid.points, grid.lo, grid.hi, kLargest));
 }
 
 GridCells::GridCells(const Grid& grid, std::string_view function) {

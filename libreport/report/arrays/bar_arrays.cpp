@@ -20,7 +20,7 @@ class CellColumn {
     for (const Index number : cell.numbers) {
       if (number < 0 || number > std::numeric_limits<std::uint32_t>::max())
         throw Error(ErrorKind::bad_data,
-                    fmt::format("{}: found a cell of vertex {}, expected at most 2^32 - 1",
+                    fmt::format("{}: found a cell of vertex {}, expected 0 to 2^32 - 1",
                                 mark(Setting::report), number));
       numbers_.push_back(static_cast<std::uint32_t>(number));
     }

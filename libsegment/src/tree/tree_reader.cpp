@@ -188,7 +188,7 @@ class TreeReader {
         if (c != std::floor(c)) fail("corner of a voxel", fmt::format("{}", c), "a whole number");
         if (scene_.method != Method::paper && !(std::abs(c) <= kMostExactCell))
           fail("corner of a voxel", fmt::format("{}", c),
-               fmt::format("at most {}", kMostExactCell));
+               fmt::format("at most {} in absolute value", kMostExactCell));
       }
       // In the order of the grid, z varies slowest.
       if (v > 0 &&

@@ -116,8 +116,8 @@ class ImagePart(Part):
         for bars in loops:
             for name, value in expected.items():
                 if bars.meta.get(name) != value:
-                    raise DataError(f"loops: found loops of another image, field or option: {name} "
-                                    f"is {bars.meta.get(name)!r}, expected {value!r}")
+                    raise DataError(f"loops: {name}: found {bars.meta.get(name)!r}, expected "
+                                    f"{value!r}, as for the image and the other loops")
         sent, received = (sum(bars.meta[name] for bars in loops)
                           for name in ("messages_sent", "messages_received"))
         if sent != received:

@@ -125,7 +125,8 @@ def _colours(data: Any, shape: tuple[int, ...]) -> NDArray[np.uint8]:
     array = _arrays.as_array(data, "colours")
     if array.shape[:-1] != shape or array.shape[-1] not in (3, 4):
         raise UsageError(f"colours: found an array of shape {array.shape}, expected "
-                         f"{(*shape, 3)}: red, green and blue of each point")
+                         f"{(*shape, 3)} or {(*shape, 4)}: red, green, blue and maybe alpha of "
+                         "each point")
     if array.dtype == np.uint8:
         return _arrays.side_by_side(array, "colours")
     is_share = array.dtype.kind == "f"

@@ -101,7 +101,7 @@ class _Persistence(MakesTables, TransformerMixin, TakesLists):
         if isinstance(given, (set, frozenset)):
             dims.sort()
         if not dims or len(set(dims)) < len(dims):
-            raise _options.refuse("homology_dimensions", given, "different dimensions")
+            raise _options.refuse("homology_dimensions", given, "at least one dimension, each once")
         _options.choice("output", self.output, _OUTPUTS)
         _options.flag("reduced", self.reduced)
         if self.infinity is not None:

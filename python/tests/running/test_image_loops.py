@@ -261,7 +261,7 @@ def test_what_is_lost_is_seen():
     with pytest.raises(ph.UsageError, match="ImageLoops.barcode"):
         whole.barcode(loops=[ph.cubical(VOLUME)] * 3)
     others = rounds(begun(VOLUME, 3, field=3)[1])
-    with pytest.raises(ph.DataError, match="another image, field or option"):
+    with pytest.raises(ph.DataError, match="loops: field: found 3, expected 2"):
         whole.barcode(loops=[*bars[:2], others[2]])
     flat = ph.image_part(VOLUME[0], 0, 1, loops=True)
     assert not flat.has_loops and flat.barcode() == ph.cubical(VOLUME[0])

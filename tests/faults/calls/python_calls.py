@@ -317,7 +317,7 @@ CALLS = [(room, *row) for room, rows in {
         ("ph.cloud_part(POINTS, 0, 2**40)", "UsageError", "parts: found 1099511627776"),
         ("ph.cloud_part(np.zeros((3, 9)), 0, 1)", "UsageError", "found 9 coordinates"),
         ("ph.image_part(IMAGE, 0, 6)", "UsageError", "found 6, expected 1 to 5"),
-        ("ph.image_part(VOLUME, 0, 2)", "UsageError", "loops need all layers at once"),
+        ("ph.image_part(VOLUME, 0, 2)", "UsageError", "loops need messages between the parts"),
         ("part.barcode()", "DataError", "found 1 of 2"),
         ("part.barcode(loops=3)", "UsageError", "loops: found 3"),
         ("ph.join_parts(3)", "UsageError", "parts: found 3"), ("ph.join_parts([])", "DataError", "found none"),

@@ -159,9 +159,9 @@ SQUARE = b"0 0\n1 0\n0 1\n5 5\n"
 MIXED = [
     ("one of two parts", {"a.ph": cloud()}, "found 1 of 2"),
     ("a part twice", {"a.ph": cloud(), "b.ph": cloud()}, "twice"),
-    ("of 2 and of 3 parts", {"a.ph": cloud(), "b.ph": cloud(1, 3)}, "found other points or options"),
-    ("of another cloud", {"a.ph": cloud(), "b.ph": cloud(1, print_=8)}, "found other points or options"),
-    ("of another threshold", {"a.ph": cloud(), "b.ph": cloud(1, limit=9.)}, "found other points or options"),
+    ("of 2 and of 3 parts", {"a.ph": cloud(), "b.ph": cloud(1, 3)}, "found other points, options"),
+    ("of another cloud", {"a.ph": cloud(), "b.ph": cloud(1, print_=8)}, "found other points, options"),
+    ("of another threshold", {"a.ph": cloud(), "b.ph": cloud(1, limit=9.)}, "found other points, options"),
     ("a cloud and an image", {"a.ph": cloud(), "b.ph": image()}, "found kind 'image'"),
     ("a cloud and inputs", {"a.ph": cloud(), "b.ph": inputs()}, "found kind 'inputs'"),
     ("inputs of other names", {"a.ph": inputs(parts=2), "b.ph": inputs((b"a.txt", b"c.txt"), 1, 2)}, "other inputs"),

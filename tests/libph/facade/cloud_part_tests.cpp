@@ -266,11 +266,11 @@ TEST(CloudPart, RefusesWhatDoesNotBelongTogether) {
     expect_error(ErrorKind::bad_data, why, [&] { first.join(std::move(part)); });
     EXPECT_EQ(first.bytes(), bytes);
   };
-  refused(CloudPart(other, 1, 3), "other points or options");
-  refused(CloudPart(points, 1, 4), "other points or options");
-  refused(CloudPart(points, 1, 3, {.threshold = 1}), "other points or options");
-  refused(CloudPart(points, 1, 3, {.blocks = 2}), "other points or options");
-  refused(CloudPart(points, 1, 3, {.sample = 7}), "other points or options");
+  refused(CloudPart(other, 1, 3), "other points, options or numbers of parts");
+  refused(CloudPart(points, 1, 4), "other points, options or numbers of parts");
+  refused(CloudPart(points, 1, 3, {.threshold = 1}), "other points, options or numbers of parts");
+  refused(CloudPart(points, 1, 3, {.blocks = 2}), "other points, options or numbers of parts");
+  refused(CloudPart(points, 1, 3, {.sample = 7}), "other points, options or numbers of parts");
   refused(CloudPart(points, 0, 3), "found part 1 twice");
   first.join(CloudPart(points, 2, 3));
   EXPECT_EQ(first.missing(), std::vector<int>{1});
@@ -294,7 +294,8 @@ TEST(CloudPart, RefusesPartsAndCloudsThatAreNone) {
   refused(points, 0, 1, {.threshold = std::nan("")}, "threshold nan");
   refused(points, 0, 1, {.distance = PointDistance::manhattan}, "expected the Euclidean distance");
   refused(points, 0, 1, {.blocks = -1}, "found -1 blocks");
-  refused(points, 0, 1, {.sample = 10}, "found a sample of 10, expected at most the 9 points");
+  refused(points, 0, 1, {.sample = 10},
+          "found a sample of 10, expected 0 to the number of points, 9");
   refused(Points(2, 9), 0, 1, {}, "found 9 coordinates, expected at most 8");
   for (Index i = 0; i < 9; ++i) {
     Points bad = points;

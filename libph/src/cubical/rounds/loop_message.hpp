@@ -99,8 +99,10 @@ class LoopMessage {
       : field_(field), voxels_(voxels), from_(bytes, "loops of another part") {
     header.image = from_.get<std::uint64_t>("image");
     if (header.image != image)
-      throw Error(ErrorKind::bad_data,
-                  "loops of another part: found loops of another image, field or option");
+      throw Error(
+          ErrorKind::bad_data,
+          "loops of another part: found other extents, types, options, fields or numbers of "
+          "parts, expected loops of the same image and field");
     header.from = from_.get<std::int32_t>("sender");
     if (header.from < 0 || header.from >= parts || header.from == to) from_.refuse("sender");
     header.to = from_.get<std::int32_t>("receiver");

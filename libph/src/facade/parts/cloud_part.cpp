@@ -45,8 +45,9 @@ void check(PointsView points, int part, int parts, const CloudPartOptions& optio
     refuse(fmt::format("found {} blocks in each of {} parts, expected at most 2^30 blocks in total",
                        options.blocks, parts));
   if (options.sample < 0 || options.sample > points.rows() || options.sample > Index{1} << 30)
-    refuse(fmt::format("found a sample of {}, expected at most the {} points", options.sample,
-                       points.rows()));
+    refuse(fmt::format(
+        "found a sample of {}, expected 0 to the number of points, {}, and at most 2^30",
+        options.sample, points.rows()));
 }
 
 WholeCloud whole_cloud(PointsView points, int parts, const CloudPartOptions& options) {
@@ -141,8 +142,10 @@ std::vector<int> CloudPart::missing() const {
 
 void CloudPart::join(CloudPart other, const RunContext& context) {
   if (other.state_->whole != state_->whole)
-    throw Error(ErrorKind::bad_data,
-                "parts of clouds: found other points or options, expected parts of one cloud");
+    throw Error(
+        ErrorKind::bad_data,
+        "parts of clouds: found other points, options or numbers of parts, expected parts of "
+        "one cloud");
   const std::vector<int>& others = other.state_->present;
   std::vector<int> present, twice;
   std::ranges::set_intersection(state_->present, others, std::back_inserter(twice));

@@ -123,17 +123,19 @@ WholeImage cubical::checked_whole(const Image& image, int parts, const ImagePart
   const int top = shape.top_dim();
   const int highest = std::min(whole.max_dim, top - 1);
   if (whole.loops && !(options.loops && top == 3))
-    throw Error(ErrorKind::usage,
-                fmt::format("parts of {0}: found a request for {2}, expected dimension 0 alone{3}, "
-                            "because {1} need all layers at once",
-                            top == 3 ? "a volume" : fmt::format("an image of {} axes", top),
-                            top == 3 ? "loops" : fmt::format("dimensions from 1 to {}", top - 2),
-                            whole.min_dim == highest
-                                ? fmt::format("dimension {}", highest)
-                                : fmt::format("dimensions {} to {}", whole.min_dim, highest),
-                            shape.any_periodic()
-                                ? " in an image with a periodic axis"
-                                : fmt::format(", or {} alone", lowest_of_top_cells(shape))));
+    throw Error(
+        ErrorKind::usage,
+        fmt::format(
+            "parts of {0}: found a request for {2}, expected dimension 0 alone{3}, "
+            "because {1}",
+            top == 3 ? "a volume" : fmt::format("an image of {} axes", top),
+            top == 3 ? "loops need messages between the parts, as ImageLoops and ph-barcode-mpi "
+                       "send them"
+                     : fmt::format("dimensions from 1 to {} need all layers at once", top - 2),
+            whole.min_dim == highest ? fmt::format("dimension {}", highest)
+                                     : fmt::format("dimensions {} to {}", whole.min_dim, highest),
+            shape.any_periodic() ? " in an image with a periodic axis"
+                                 : fmt::format(", or {} alone", lowest_of_top_cells(shape))));
   const GridShape::Axis& axis = shape.axis(shape.layer_axis());
   if (image.values.size() != axis.extent * axis.stride)
     throw Error(ErrorKind::bad_data,
@@ -221,7 +223,8 @@ void ImagePart::join(ImagePart next, const RunContext& context) {
   if (next.state_->whole != state_->whole)
     throw Error(
         ErrorKind::bad_data,
-        "parts of images: found other extents, types or options, expected parts of one image");
+        "parts of images: found other extents, types, options or numbers of parts, expected parts "
+        "of one image");
   if (next.first() != last() + 1)
     throw Error(ErrorKind::bad_data,
                 fmt::format("parts of an image: found part {} after part {}, expected part {}",

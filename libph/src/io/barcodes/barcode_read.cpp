@@ -55,10 +55,11 @@ StoredBarcode read_npy(const Input& input) {
   const std::size_t width = array.dim() == 2 ? array.extents[1] : 0;
   const bool has_places = width == 9 || width == 11;
   if (width != 3 && !has_places) {
-    input.fail({"not a barcode",
-                fmt::format("shape ({})", fmt::join(array.extents, ", ")),
-                "rows of dim, birth, death",
-                {}});
+    input.fail(
+        {"not a barcode",
+         fmt::format("shape ({})", fmt::join(array.extents, ", ")),
+         "rows of dim, birth, death, alone or with the coordinates of 2 voxels (9 or 11 numbers)",
+         {}});
   }
   const auto value = [&](double stored) {
     constexpr double kLargest = std::numeric_limits<double>::max();

@@ -25,7 +25,8 @@ double value_of(JsonCursor& json) {
   if (json.peek() != '"') return json.number();
   const std::size_t place = json.place();
   const std::string word = json.string();
-  if (word != "-inf") json.fail(place, {"value", printable(word, 40), "a number or -inf", {}});
+  if (word != "-inf")
+    json.fail(place, {"value", printable(word, 40), "a number, null or \"-inf\"", {}});
   return -kInfinity;
 }
 

@@ -242,7 +242,7 @@ void read_members(detail::JsonCursor& json, Camera& camera, bool& has_matrix, bo
       if (!(camera.depth_scale >= 1 && std::isfinite(camera.depth_scale)))
         json.fail(place, {"depth_scale",
                           fmt::format("{}", found),
-                          "units per metre, at least 1, or metres per unit, below 1",
+                          "units per metre, at least 1, or metres per unit, above 0 and below 1",
                           {}});
     } else if (name == "intrinsic" && !inside) {
       json.expect('{');

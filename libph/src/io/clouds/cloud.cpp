@@ -115,10 +115,11 @@ std::vector<float> Cloud::xyz() const {
   for_each_coordinate(*this, [&](std::size_t i, std::size_t axis, auto value) {
     if constexpr (std::same_as<decltype(value), double>)
       if (std::isfinite(value) && std::abs(value) > std::numeric_limits<float>::max())
-        throw Error(ErrorKind::bad_data,
-                    fmt::format("point {}, coordinate {}: found {}, expected at most {} (single "
-                                "precision)",
-                                i, axis, value, std::numeric_limits<float>::max()));
+        throw Error(
+            ErrorKind::bad_data,
+            fmt::format("point {}, coordinate {}: found {}, expected at most {} in absolute "
+                        "value (single precision)",
+                        i, axis, value, std::numeric_limits<float>::max()));
     result[3 * i + axis] = static_cast<float>(value);
   });
   return result;

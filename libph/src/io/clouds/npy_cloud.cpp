@@ -20,7 +20,8 @@ Cloud read_npy_cloud(const Input& input, const ReadOptions& options) {
   const auto are_columns = [&](Index n) { return n >= least_columns && n <= most_columns; };
   if (shape.size() < 2 || shape.size() > 3 || !are_columns(shape.back())) {
     const bool turned = shape.size() == 2 && are_columns(shape.front());
-    input.fail({"not an array of points", found, "(points, 3) or (rows, columns, 3)",
+    input.fail({"not an array of points", found,
+                "(points, n) or (rows, columns, n) with n from 3 to 64",
                 turned              ? "save its transpose"
                 : shape.size() == 2 ? fmt::format("a depth image needs a camera: {} or {}",
                                                   mark(Setting::camera), mark(Setting::intrinsics))

@@ -72,7 +72,7 @@ class PcdHeaderParser {
       const std::string_view version = cells_.more() ? cells_.word() : std::string_view();
       if (std::string_view(".7 0.7 .6 0.6 .5 0.5").find(version) == std::string_view::npos ||
           version.size() < 2) {
-        lines_.fail(place, {"PCD version", printable(version, 40), "0.7", {}});
+        lines_.fail(place, {"PCD version", printable(version, 40), "0.7, 0.6 or 0.5", {}});
       }
     } else if (key == "FIELDS" || key == "COLUMNS") {
       if (!fields.empty()) lines_.fail(place, {"PCD header", "a second list of fields", "one", {}});
@@ -166,7 +166,7 @@ class PcdHeaderParser {
     header_.lines = lines_.number();
     if (cloud.fields.empty()) input_.fail({"PCD header", "no FIELDS", "them before DATA", {}});
     if (width_ < 0 && points_ < 0)
-      input_.fail({"PCD header", "neither WIDTH nor POINTS", "both", {}});
+      input_.fail({"PCD header", "neither WIDTH nor POINTS", "at least one of them", {}});
 
     if (height_ < 0) height_ = 1;
     if (width_ < 0) width_ = points_;

@@ -51,7 +51,8 @@ Mesh read_off(const Input& input, const ReadOptions& options) {
   TextLines lines(input);
   Cells cells(lines);
   if (!lines.next() || (cells.start(), std::ranges::find(kWords, cells.word()) == kWords.end())) {
-    input.fail_at(1, 1, {"not an OFF file", "a different first word", "OFF", {}});
+    input.fail_at(
+        1, 1, {"not an OFF file", "a different first word", "OFF, or OFF after ST, C or N", {}});
   }
   if (!cells.more()) {
     if (!lines.next())

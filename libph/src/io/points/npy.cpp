@@ -116,7 +116,7 @@ class HeaderParser {
       const auto [stop, error] = std::from_chars(begin, input_.text().data() + end_, extent);
       if (error != std::errc{} || extent < 0) {
         fail(position_, "shape",
-             error == std::errc::result_out_of_range ? "a number above 2^63"
+             error == std::errc::result_out_of_range ? "a number out of the range of int64"
              : extent < 0                            ? fmt::format("{}", extent)
                                                      : found(),
              "sizes of 0 or more");

@@ -172,8 +172,9 @@ void refuse_columns(const ReadOptions& options, std::string_view found) {
   if (!options.columns.empty())
     throw Error(
         ErrorKind::usage,
-        fmt::format("{}: makes sense only for points and for matrices in text files, found {}",
-                    mark(Setting::columns), found));
+        fmt::format(
+            "{}: makes sense only for tables in text files and for points in NPY files, found {}",
+            mark(Setting::columns), found));
 }
 
 std::string matrix_option(const ReadOptions& options) {
