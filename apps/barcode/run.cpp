@@ -69,9 +69,10 @@ std::vector<std::string> pictures_of_tree(const Loaded& loaded, const Job& job,
   if (!tree)
     throw Error(ErrorKind::usage,
                 fmt::format("--plot-kind tree: {} has no merge tree: expected no sample, no "
-                            "approximation and no periodic space; for images, --construction "
-                            "vertices and at most {} voxels; for simplices, boundary matrices and "
-                            "meshes, no --threshold",
+                            "approximation, no periodic space and no point that enters above the "
+                            "threshold; for images, --construction vertices and at most {} "
+                            "voxels; for simplices, boundary matrices and meshes, edges that join "
+                            "two vertices and no --threshold",
                             loaded.name, report::kMostTreeVoxels));
   const MemoryClaim claim(context.memory, tree->births.size() * sizeof(Branch));
   const std::vector<Branch> branches = tree->branches();
