@@ -62,8 +62,9 @@ class Cubical {
 
   /// @param context must outlive the filtration.
   /// @throws Error (bad_data) on NaN unless the image is masked, on an axis of length 0, or if the
-  ///         extents do not match the number of values; Error (usage) on more than 8 axes or a
-  ///         periodic axis that does not exist; Error (resource) beyond the context's memory limit.
+  ///         extents do not match the number of values; Error (usage) on more than 8 axes, a
+  ///         threshold that is NaN or a periodic axis that does not exist; Error (resource) beyond
+  ///         the context's memory limit.
   explicit Cubical(const Image& image, const CubicalOptions& options = {},
                    const RunContext& context = default_context());
 

@@ -186,19 +186,20 @@ struct BarycentreOptions {
 struct Barycentre {
   std::vector<Bar> bars;        ///< ascending by birth, then death; of dimension 0
   double root_mean_square = 0;  ///< root mean square of the distances to the diagrams
-  int rounds = 0;               ///< rounds that lowered the mean square
-  bool converged = false;       ///< true if the search ended before most_rounds
+  int rounds = 0;               ///< rounds that lowered the mean by more than least_gain
+  bool converged = false;       ///< true if a round gained no more than least_gain
 };
 
 /// A barycentre (Fréchet mean) of persistence diagrams: a local minimum of the mean square of the
 /// Wasserstein distances (order 2, Euclidean ground norm) to the given diagrams. The search begins
-/// at their medoid: the diagram with the least sum of squared distances, which are computed to
-/// within 1 %; among equals, the first one. The search then alternates two steps. First, each given
-/// diagram is matched with the current diagram. Then each bar of the current diagram moves to the
-/// mean of its partners, where a partner on the diagonal counts as the point nearest to the mean of
-/// the others. A bar without a partner in the current diagram becomes a new bar, moved towards the
-/// diagonal by all diagrams that lack it; a bar with all its partners on the diagonal is removed.
-/// The result may therefore have bars that are only 1/N as long as a bar of one of the N diagrams.
+/// at their medoid: the diagram with the least sum of squared distances to all diagrams; among
+/// equals, the first one. The distances for this choice are computed to within 1 %. The search then
+/// alternates two steps. First, each given diagram is matched with the current diagram. Then each
+/// bar of the current diagram moves to the mean of its partners, where a partner on the diagonal
+/// counts as the point of the diagonal nearest to the mean of the others. A bar without a partner
+/// in the current diagram becomes a new bar, moved towards the diagonal by all diagrams that lack
+/// it; a bar with all its partners on the diagonal is removed. The result may therefore have bars
+/// that are only 1/N as long as a bar of one of the N diagrams.
 ///
 /// Infinite bars are averaged in the order of their finite ends. Bars of length 0 do not count.
 /// Sources: Turner, Mileyko, Mukherjee, Harer, Fréchet means for distributions of persistence

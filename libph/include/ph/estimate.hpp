@@ -12,8 +12,8 @@ struct Estimate : RunPlan {
   /// Facts about the complex; empty if its edges were not made.
   RunFacts built;
   /// Numbers of cells by dimension, as far as the engine lists them: the engines `edge-links` and
-  /// `union-find` list only vertices and edges, and `gradient` lists no cells. Counted after the
-  /// collapse, if there is one.
+  /// `union-find` list only vertices and edges; `gradient` and `beta-skeleton` list no cells. If
+  /// there is a collapse, the cells are counted after it, except with `cells_at_most`.
   std::vector<double> cells;
   /// Cells of dimensions below this one are counted; the numbers of all other cells are estimated
   /// from a sample, usually within a few per cent.
@@ -44,7 +44,7 @@ struct Fit {
 /// also makes the planned form within the memory limit. It tries another engine, no representatives
 /// and lower dimensions; for a Rips filtration it then tries a subsample, a lower threshold and an
 /// edge collapse.
-/// @return at most three changes; the search stops after a few CPU seconds.
+/// @return at most three ways to fit; the search stops after a few CPU seconds.
 /// @throws Error (cancelled) on a stop request.
 std::vector<Fit> what_fits(const AnyComplex& complex, const Options& options,
                            const RunContext& context);

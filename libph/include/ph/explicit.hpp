@@ -151,7 +151,7 @@ class ExplicitComplex {
   // Positions of the vertices in the input, ascending.
   std::pmr::vector<std::uint32_t> vertices_;
   std::pmr::vector<std::size_t> first_of_dim_;  // ranges in of_dim_
-  std::pmr::vector<std::uint32_t> of_dim_;      // ids sorted by dimension, then order
+  std::pmr::vector<std::uint32_t> of_dim_;      // ids sorted by dimension, then input position
   Incidence facets_, cofacets_;
   SimplexList simplices_;  // for kind `vertices`: the simplices of the input, vertices ascending
 };
@@ -161,7 +161,8 @@ class ExplicitComplex {
 /// values of the list are ignored.
 /// @param vertex_values a value for each vertex id 0 … size-1, not NaN; a vertex of value +infinity
 /// never enters.
-/// @throws Error (bad_data) on a vertex id without a value or a NaN, or if sizes disagree.
+/// @throws Error (bad_data) on a vertex id without a value, a NaN or a vertex that occurs twice in
+///         a simplex, or if sizes disagree; Error (resource) on a simplex of more than 24 vertices.
 ExplicitComplex lower_star(const SimplexList& simplices, std::span<const double> vertex_values,
                            const CellNamer& name = {},
                            const RunContext& context = default_context());

@@ -128,8 +128,8 @@ PH_API ph_status ph_cubical_image(const void* data, ph_number type, int32_t axes
 /** ph_rips_points for many clouds, several at a time: for many small inputs this is faster than one
  * call per cloud. ph_options::threads and memory_limit apply to all inputs together.
  * @param clouds clouds[i] is the start of rows[i] points of `columns` numbers each, row after row.
- * @param out an array of `count` handles, set on PH_OK only. Otherwise ph_last_error() gives the
- * number of the input, counted from 0. */
+ * @param out an array of `count` handles, set on PH_OK only. If one input causes an error,
+ * ph_last_error() gives its number, counted from 0. */
 PH_API ph_status ph_rips_points_batch(const double* const* clouds, const int64_t* rows,
                                       int64_t columns, size_t count, const ph_options* options,
                                       ph_barcode** out);
@@ -142,7 +142,7 @@ PH_API ph_status ph_cubical_image_batch(const void* const* images, ph_number typ
 
 /** The number of bars. Bars are ordered by dimension, birth, death and birth cell. */
 PH_API size_t ph_barcode_size(const ph_barcode* bars);
-/** An array of all bars, which lives as long as the handle. */
+/** An array of all bars, which lives as long as the handle; NULL if there are no bars. */
 PH_API const ph_bar* ph_barcode_bars(const ph_barcode* bars);
 /** The cell that gave birth to bar i, or the cell that killed it. For points, the numbers are the
  * vertices of the cell, ascending. For images, they are its doubled grid coordinates; with

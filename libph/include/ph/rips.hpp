@@ -81,12 +81,14 @@ struct RipsInput {
   const RipsOptions& options;
 };
 
-/// An estimate of the edges of a Rips filtration from a sample of pairs of points.
+/// An estimate of the edges of a Rips filtration from a sample of pairs of points. Births are
+/// ignored.
 struct RipsSample {
-  Index vertices = 0;             ///< an upper bound; equal points are counted separately
-  double pairs = 0;               ///< pairs of these vertices, or pairs whose distance is known
-  double edges = 0;               ///< approximate number of pairs within the threshold
-  std::vector<double> distances;  ///< distances of pairs drawn at random, ascending
+  Index vertices = 0;  ///< an upper bound; equal points are counted separately
+  double pairs = 0;    ///< pairs of these vertices, or pairs whose distance is known
+  double edges = 0;    ///< approximate number of pairs within the threshold
+  /// Ascending: the distances of pairs drawn at random, or all distances of a SparseDistances.
+  std::vector<double> distances;
 };
 
 /// The Vietoris-Rips filtration of a finite set with distances: a simplex enters at its diameter,
@@ -148,16 +150,16 @@ class Rips {
   /// True if a form can be made from the input, was made, or is the given graph.
   bool has_form(RipsForm form) const;
   /// The graph of a form, made if necessary; it lives as long as a copy of the filtration. The form
-  /// `edges` evaluates O(n^2) distances or, for Euclidean points with a threshold, only the
-  /// distances within that threshold.
+  /// `edges` evaluates O(n^2) distances. For Euclidean points of at most 32 coordinates with a
+  /// threshold, a search for near points rules out most larger distances.
   /// @throws Error (usage) if it does not have that form, or if the input was freed before the form
   /// was made; Error (bad_data) on a distance that is negative or NaN; Error (resource, cancelled).
   /// For a forest on another device also: Error (usage) if that device cannot do the task, Error
   /// (not_built_in) if there is no such device, Error (resource) if its memory is too small.
   const RipsGraph& graph(RipsForm form, const RunContext& context = default_context()) const;
 
-  /// Estimates the edges: evaluates about 20 000 distances and, without a threshold, all distances
-  /// of 32 points.
+  /// Estimates the edges: evaluates about 20 000 distances and, without a threshold, up to all
+  /// distances of 32 points. The edges of sparse distances are counted instead.
   /// @throws Error (usage) if the input was freed; Error (bad_data) on a distance that is negative
   ///        or NaN.
   RipsSample sample(const RunContext& context = default_context()) const;

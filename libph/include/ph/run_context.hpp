@@ -172,14 +172,14 @@ class InputError : public Error {
 
 /// Calls `work(i, of_input)` for i = 0 … count - 1, on as many threads as `context` allows, one
 /// input per thread: for many small inputs, this is faster than using all threads for one input at
-/// a time. With fewer inputs than threads, each input gets several threads.
+/// a time. If there are at least twice as many threads as inputs, each input gets several threads.
 ///
 /// Any thread may take any input: the output of `work` must depend on i alone. The context passed
 /// to `work` stops with `context`, shares the rest of its memory limit with all other inputs and
 /// reports no progress; `context` receives the number of finished inputs.
-/// @throws InputError for an Error in `work`, and any other exception unchanged. An error stops the
-///         other inputs; if several have failed by then, the first input's error is thrown. Error
-///         (cancelled) on a stop request.
+/// @throws InputError for an Error in `work`, except Error (cancelled); any other exception
+///         unchanged. An error stops the other inputs; if several have failed by then, the error of
+///         the input with the smallest number is thrown. Error (cancelled) on a stop request.
 void for_each_input(std::size_t count, const RunContext& context,
                     const std::function<void(std::size_t, const RunContext&)>& work);
 

@@ -99,7 +99,8 @@ struct ConfidenceBand {
 ///        absolute value.
 /// @param samples at least 2.
 /// @throws Error (usage) on fewer samples, rows that differ in length, or an option out of its
-///         range; Error (bad_data) on a number above that limit; Error (resource, cancelled).
+///         range; Error (bad_data) on a NaN or a number beyond that limit; Error (resource,
+///         cancelled).
 ConfidenceBand multiplier_bootstrap(std::span<const double> functions, std::size_t samples,
                                     const BandOptions& options = {},
                                     const RunContext& context = default_context());
@@ -114,7 +115,7 @@ struct PermutationOptions {
 
 struct PermutationTest {
   /// (1 + the number of shuffles whose loss is at most the observed loss) / (1 + the number of all
-  /// shuffles). If all groups follow one distribution, p is at most t with probability t.
+  /// shuffles). If all groups follow one distribution, the probability of p <= t is at most t.
   double p = 1;
   /// The observed loss: for each group, half the mean of distance^power over all pairs within the
   /// group, summed over the groups. Infinite if doubles cannot hold it.

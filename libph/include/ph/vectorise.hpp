@@ -26,15 +26,15 @@ namespace ph {
 
 // ---- input
 
-/// The treatment of bars that never die.
+/// The treatment of infinite bars: bars that never die, and bars that are born at -infinity.
 struct InfiniteBars {
   enum class Rule {
     drop,    ///< these bars are left out
-    cap,     ///< these bars die at `cap`
+    cap,     ///< bars that never die get the death `cap`; bars born at -infinity are an error
     refuse,  ///< these bars are an error
   };
   Rule rule = Rule::drop;
-  double cap = 0;  ///< finite; not before the birth of a bar that never dies
+  double cap = 0;  ///< at most 1e100 in absolute value; not before the birth of a bar it caps
 };
 
 struct FiniteBars {
@@ -42,8 +42,7 @@ struct FiniteBars {
   std::size_t dropped = 0;  ///< number of bars left out
 };
 
-/// Bars with both ends finite. Bars born at -infinity cannot be capped: the rules `cap` and
-/// `refuse` both refuse such bars.
+/// Bars with both ends finite, including bars of length 0.
 FiniteBars finite_bars(std::span<const Bar> bars, const InfiniteBars& rule = {});
 
 /// The values at which a function is evaluated: `points` values, equally spaced, with both ends
@@ -60,8 +59,8 @@ struct Grid {
 };
 
 /// The grid from the smallest finite birth or death in a batch of diagrams to the largest. If all
-/// these numbers are equal, the grid is an interval of length 1 around them; if there are none, it
-/// is [0, 1]. Infinite ends are ignored.
+/// these numbers equal x, the grid is an interval around x of length 1 or 2^-39 |x|, whichever is
+/// more; if there are none, it is [0, 1]. Infinite ends are ignored.
 Grid fit_grid(std::span<const std::span<const Bar>> diagrams, std::size_t points = 100);
 
 /// An interval that is divided into pixels of equal width.
@@ -78,8 +77,8 @@ struct ImageFrame {
 };
 
 /// The frame from the smallest to the largest birth in a batch, and from 0 to the largest length.
-/// If all births are equal, the frame around them is as wide as it is high. If there are no bars,
-/// the frame has height 1.
+/// If all births equal x, the frame around x is as wide as it is high, but at least 2^-39 |x| wide.
+/// If there are no bars, both ranges are [0, 1].
 ImageFrame fit_image_frame(std::span<const std::span<const Bar>> diagrams, std::size_t births = 20,
                            std::size_t lengths = 20);
 
@@ -163,8 +162,8 @@ std::vector<PiecewiseLinear> exact_landscape(std::span<const Bar> bars, std::siz
 
 /// The persistence image: each bar is a normal distribution around (birth, length) with standard
 /// deviation `sigma` along both axes, times length^power; a pixel holds the integral over its area.
-/// The part of a distribution that is more than 8 sigma from its centre, less than 2e-15 of the
-/// whole, is left out.
+/// Pixels more than 8 sigma from the centre along an axis are left out; together they hold less
+/// than 3e-15 of a distribution.
 ///
 /// Source: Adams et al., 2017, Persistence images: a stable vector representation of persistent
 /// homology. O(n · pixels within 8 sigma). Unit: the unit of the values to the power of `power`; no
@@ -208,9 +207,9 @@ struct AtolOptions {
 ///
 /// Source: Royer et al., 2021, ATOL: measure vectorization for automatic topologically-oriented
 /// learning. k-means++ chooses the first centres (Arthur, Vassilvitskii, 2007); rounds of k-means
-/// follow until no point changes its centre. The result is the same on any machine, for bars and
-/// diagrams in any order and for any number of threads. O(n · centres) per round, shared by
-/// threads.
+/// follow until no point changes its centre, or until most_rounds is reached. The result is the
+/// same on any machine, for bars and diagrams in any order and for any number of threads. O(n ·
+/// centres) per round, shared by threads.
 /// @throws Error (usage) on options out of range; Error (bad_data) on fewer distinct points than
 ///         centres; Error (resource, cancelled).
 Atol fit_atol(std::span<const std::span<const Bar>> diagrams, const AtolOptions& options = {},
@@ -228,8 +227,8 @@ void atol_vector(std::span<const Bar> bars, const Atol& fitted, std::span<double
 /// values.
 ///
 /// Source: Reininghaus et al., A stable multi-scale kernel for topological machine learning, 2015.
-/// Pairs with |p - q|² > 320 sigma are left out: each contributes less than 5e-18 of what a pair of
-/// equal bars contributes. O(n m) at most.
+/// Pairs with |p - q|² > 320 sigma are left out: both exponentials of such a pair are below 5e-18.
+/// O(n m) at most.
 /// @param sigma finite, > 0.
 double scale_space_kernel(std::span<const Bar> a, std::span<const Bar> b, double sigma,
                           const RunContext& context = default_context());

@@ -53,8 +53,8 @@ segment::Vec3 viewpoint(const ::pcl::PointCloud<PointT>& cloud) {
   return {double{origin[0]}, double{origin[1]}, double{origin[2]}};
 }
 
-/// The cloud in the form that the pipeline reads. The view has the cloud's rows and columns if
-/// width times height is the number of points.
+/// The cloud in the form that the pipeline reads. The view has the rows and columns of the cloud if
+/// width * height is the number of points; otherwise the view is unorganised.
 /// @param xyz the result of `coordinates` for this cloud, which must outlive the view.
 template <class PointT>
 segment::CloudView cloud_view(const ::pcl::PointCloud<PointT>& cloud, std::span<const float> xyz) {

@@ -12,7 +12,7 @@ namespace ph {
 
 /// A hash table from 64-bit numbers to small values, in one array with linear probing; several
 /// times faster than std::unordered_map for the look-ups of inner loops. Any 64-bit number can be a
-/// key. Nothing is ever erased.
+/// key. Single keys are never erased.
 template <class Value>
 class FlatMap {
  public:

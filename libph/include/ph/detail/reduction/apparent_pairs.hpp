@@ -10,7 +10,7 @@ namespace ph {
 /// Apparent pairs (Bauer, Ripser, section 3.5): a cell and a cofacet of equal key, where the
 /// cofacet is the oldest cofacet of the cell and the cell is the youngest facet of the cofacet.
 /// Each apparent pair is a persistence pair, found by looking at neighbours alone: nothing is
-/// reduced and nothing is stored. A filtration without cofacets has none.
+/// reduced and nothing is stored. If a filtration cannot list cofacets, no pairs are found.
 template <Filtration F, Field K>
 class ApparentPairs {
  public:

@@ -11,8 +11,8 @@ namespace ph {
 
 /// Persistent cohomology: coboundary columns from dimension 0 up, with clearing, apparent and
 /// emergent pairs (Bauer, Ripser: efficient computation of Vietoris-Rips persistence barcodes).
-/// Lists cells of dimension max_dim + 1 only as cofacets. Computes H0 by union-find where that is
-/// valid.
+/// Lists cells of dimension max_dim + 1 only as cofacets. Without representatives, computes H0 by
+/// union-find where that is valid.
 struct CohomologyEngine {
   static constexpr Engine id = Engine::cohomology;
   template <Filtration F>

@@ -15,8 +15,8 @@ namespace ph {
 /// An edge is known by its key: its position in the order, counted from 1. Key 0 belongs to the
 /// vertices.
 ///
-/// There are two layouts: a square matrix of keys if most pairs are edges, and sorted neighbour
-/// lists otherwise.
+/// There are two layouts: a square matrix of keys if at least a quarter of the pairs are edges, and
+/// sorted neighbour lists otherwise.
 class RipsAdjacency {
  public:
   using Key = std::uint32_t;

@@ -173,8 +173,9 @@ class RipsFiltration {
       if (const auto v = vertex(cell, slot); v != longest.u && v != longest.v) return slot;
     return dim + 1;
   }
-  /// The smallest vertex below `below` that is joined, by edges before `key`, to all vertices of a
-  /// cell except the vertex in slot `skipped`; kNoVertex if there is none.
+  /// The smallest vertex below `below` that is joined, by edges whose keys are below the key of the
+  /// cell, to all vertices of the cell except the vertex in slot `skipped`; kNoVertex if there is
+  /// none.
   std::uint32_t first_common_neighbour(int dim, const Cell& cell, int skipped,
                                        std::uint32_t below) const;
   static constexpr std::uint32_t kNoVertex = UINT32_MAX;

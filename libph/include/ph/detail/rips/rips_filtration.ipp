@@ -6,9 +6,9 @@
 namespace ph {
 
 // A simplex consists of its longest edge e and a clique of the link of e. Let m be the least vertex
-// of the clique. Its oldest cofacet of equal key adds the least vertex w of the link that is joined
-// to all vertices of the clique. The youngest facet of equal key of this cofacet is the simplex if
-// and only if w < m.
+// of the clique. The oldest cofacet of the simplex with an equal key adds the least vertex w of the
+// link that is joined to all vertices of the clique. The youngest facet of equal key of this
+// cofacet is the simplex if and only if w < m.
 template <RipsLayout Layout, int Words>
 auto RipsFiltration<Layout, Words>::apparent_cofacet(int dim, const Cell& cell) const
     -> std::optional<Cell> {

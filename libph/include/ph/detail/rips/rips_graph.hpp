@@ -43,7 +43,7 @@ class RipsGraph {
   template <Metric M>
   static RipsGraph of_metric(const M& metric, std::optional<double> threshold,
                              const RunContext& context, const VertexWeights& weights = {});
-  /// Uses Euclidean distances up to the threshold, and never computes all n^2 distances.
+  /// Uses Euclidean distances up to the threshold, found by for_each_pair_within.
   static RipsGraph of_points_within(PointsView points, double threshold, const RunContext& context,
                                     const VertexWeights& weights = {});
   /// Holds the points and no edges.
@@ -122,7 +122,7 @@ class RipsGraph {
   /// The memory in which edges are allocated.
   std::pmr::memory_resource* memory() const { return names_.get_allocator().resource(); }
 
-  /// True if most pairs are edges: the layout that adjacency() has or will have.
+  /// True if at least a quarter of the pairs are edges: adjacency() then has the dense layout.
   bool is_dense() const {
     return RipsAdjacency::is_dense(static_cast<std::size_t>(size_), edge_count());
   }
