@@ -12,8 +12,8 @@ threads : int
     How many threads to use. Default: one per core. Results do not depend on this number.
 memory_limit : int or str
     The largest amount of memory that the computation may take, in bytes or as text ("4GiB"). If the
-    computation needs more, it ends with a `MemoryLimitError`. Default: 90 % of the free memory of
-    the machine or of the control group.
+    computation needs more, it ends with a `MemoryLimitError`. Default: 90 % of the memory of the
+    machine or of the control group, minus the memory that the process already uses.
 progress : bool or callable
     True shows a progress bar if tqdm is installed. A callable receives ``(stage, done, total)`` at
     most ten times per second; `total` is 0 if it is unknown. An exception that it raises stops the

@@ -75,14 +75,15 @@ def rips(X: Any, *, max_dim: int | None = 1, min_dim: int = 0, threshold: float 
         Epsilon of a sparse Rips filtration: births and deaths are later by a factor of at most 1 +
         epsilon.
     merge_equal_points : bool, optional
-        If True, equal points become one vertex. Default: True if this keeps all bars of positive
-        length.
+        If True, equal points without `weights` become one vertex, which keeps all bars of positive
+        length. Default: True, unless `min_persistence` is negative or cocycles are requested.
     device : {"cpu", "gpu"}
         The device that finds the components of points with Euclidean distances (``max_dim=0``); the
         result does not depend on it. "gpu" is an NVIDIA GPU, if libph was built with support for
         it.
     collapse : {"auto", True, False}
-        If True, edges are collapsed first, which does not change the bars.
+        If True, edges are collapsed first, which does not change the bars, but may change their
+        cells. "auto": edges are collapsed if a sample of them shows that this is worthwhile.
     representatives : {None, "cycles", "cocycles"}
         The kind of chains to compute with the bars; see `Barcode.representative`.
     loops : {None, "tight", "plain", "none"}

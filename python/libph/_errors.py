@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""The errors of libph, which raises no others except on Ctrl-C or if a callback raises.
+"""The errors of libph.
 
-Each error class also derives from a built-in class, so that ``except ValueError`` catches bad data.
+Other errors come from Ctrl-C, callbacks, missing packages, and wrong uses of Python, such as an
+unknown keyword or an index beyond the last bar. Each error class except `Cancelled` also derives
+from a built-in class, so that ``except ValueError`` catches bad data.
 """
 
 
@@ -34,7 +36,7 @@ class UsageError(Error, ValueError):
 
 
 class DataError(Error, ValueError):
-    """The data are malformed; the message names row and column."""
+    """The data are malformed; the message names the place if there is one."""
 
 
 class MissingInputError(Error, FileNotFoundError):

@@ -24,8 +24,9 @@ class Estimate(NamedTuple):
     cells : tuple of float
         Number of cells per dimension, as far as the engine lists them.
     counted_dims : int
-        The numbers of cells below this dimension are exact; from this dimension on, they are
-        estimated from a sample.
+        The numbers of cells below this dimension are counted; from this dimension on, they are
+        estimated from a sample. If edges are collapsed and there are more than 300 000, all these
+        numbers are of the complex before the collapse, and therefore upper bounds.
     engine : str
         The engine that will run.
     reason : str

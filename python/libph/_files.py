@@ -23,8 +23,8 @@ _LOG = logging.getLogger("libph")
 
 
 class Simplices(NamedTuple):
-    """Simplices from a file: for ``filtered(*simplices)``, or for `lower_star` with
-    `vertex_values`."""
+    """Simplices from a file, for ``filtered(*found)``. If `read` was given `values`, the values are
+    values of vertices, for ``lower_star(found.values, found.simplices)``."""
 
     simplices: list[tuple[int, ...]]
     values: NDArray[np.float64]

@@ -39,7 +39,7 @@ class Subsample(NamedTuple):
 
 def point_image(X: ArrayLike, voxel: float, *, value: str = "distance", margin: int = 1,
                 **run: Unpack[RunOptions]) -> PointImage:
-    """Converts points to an image for `cubical`. The cost depends only on the volume.
+    """Converts points to an image for `cubical`. The time is proportional to points and voxels.
 
     Parameters
     ----------
@@ -150,7 +150,8 @@ def farthest_points(X: Any, n: int | None = None, *, radius: float = 0.0,
     X : array_like
         As in `rips`; all distances must be known.
     n : int, optional
-        Number of points. Default: all, or as many as `radius` requires.
+        Largest number of points. Default: as many as `radius` requires; for a radius of 0, all
+        distinct points.
     radius : float
         Sampling stops when every point is at most this far from a chosen point.
     metric, minkowski_p

@@ -38,10 +38,10 @@ def p_values(bars: Barcode | ArrayLike, dim: int | None = None, *, filtration: s
         For a barcode: the dimension, at least 1.
     filtration : {"rips", "cech"}, optional
         The filtration of the bars; "cech" also for alpha complexes. Default: "rips" for barcodes of
-        `rips`, "cech" for barcodes of `alpha`.
+        `rips`, "cech" for barcodes of `alpha` except with ``values="delaunay-rips"``.
     corrected : bool
-        If True, p is multiplied by the number of bars, up to 1 (Bonferroni): then all bars with p
-        at most 0.05 are real with a probability of 95 %.
+        If True, p is multiplied by the number of finite bars longer than 0, up to 1 (Bonferroni):
+        then all bars with p at most 0.05 are real with a probability of 95 %.
 
     Returns
     -------
@@ -234,8 +234,8 @@ class PermutationTest(NamedTuple):
     p : float
         The probability that groups from one distribution are at least as far apart.
     loss : float
-        For each group, half the mean of the distances within the group, raised to `power`; summed
-        over the groups.
+        The sum over the groups of half the mean of ``distance ** power`` over all pairs within the
+        group.
     """
 
     p: float

@@ -31,7 +31,7 @@ class Surface(NamedTuple):
         Rows of three points, (m, 3). Seen from outside, they are counterclockwise.
     singular : ndarray of bool
         True for triangles without a tetrahedron of the complex on either side; they come last. For
-        points in the plane, this holds for all triangles.
+        points in a plane, False for all triangles.
     """
 
     vertices: NDArray[np.float64]

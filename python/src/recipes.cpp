@@ -21,9 +21,10 @@
 namespace ph::python {
 namespace {
 
-// The number of cells that the chosen engine processes within milliseconds, whatever the input is.
-// Starting a thread takes a tenth of a millisecond, or more on a busy machine. The number of cells
-// corresponds to 215 points up to H1, or to 80 points up to H2.
+// Below these bounds, the chosen engine takes milliseconds, whatever the input is. Starting a
+// thread takes a tenth of a millisecond, or more on a busy machine. The first number bounds a power
+// of the number of points, n^(max_dim + 2): it allows 215 points up to H1, or 56 points up to H2.
+// The second number bounds the cells of an image, 2^d per voxel.
 constexpr double kFewSimplices = 1e7;
 constexpr double kFewCubes = 1e5;
 

@@ -16,7 +16,7 @@ namespace ph::python {
 namespace {
 
 /// Returns the p-values of rows birth, death, and the p-values that are corrected for the number of
-/// rows.
+/// rows tested.
 py::tuple p_values(const py::buffer& bars, const std::string& filtration) {
   const py::buffer_info info = bars.request();
   const PointsView rows = points_of(info);

@@ -188,7 +188,7 @@ struct SurfaceMesh {
   std::vector<std::array<Index, 3>> triangles;
   /// The first `regular` triangles have a tetrahedron on exactly one side, and are counterclockwise
   /// as seen from the other side. The remaining triangles are *singular*: they have no tetrahedron
-  /// on either side.
+  /// on either side. For points in a plane, all triangles count as regular.
   std::size_t regular = 0;
 };
 

@@ -20,9 +20,10 @@ struct PointImage {
 /// The meaning of the values of voxels that are made from a point cloud. Low values enter first.
 enum class VoxelValue {
   /// The distance from the voxel's centre to the centre of the nearest voxel that contains a point.
-  /// Sublevel sets are growing balls around the points, as in the alpha filtration, at a cost that
-  /// depends only on the volume. With `Cubical`, they show how many pieces, loops and hollows the
-  /// cloud has, and how wide these are. This value differs from the distance to the points by at
+  /// Sublevel sets are growing balls around the points, as in the alpha filtration, but the time is
+  /// proportional to the numbers of points and voxels. With `Cubical`, they show how many pieces,
+  /// loops and hollows the cloud has, and how wide these are. This value differs from the distance
+  /// to the points by at
   /// most voxel * sqrt(d), which bounds the error of every bar (Cohen-Steiner, Edelsbrunner &
   /// Harer, Stability of persistence diagrams, 2007).
   distance,

@@ -28,9 +28,9 @@ class Barycentre(NamedTuple):
     root_mean_square : float
         The root mean square of its distances to the diagrams.
     rounds : int
-        Number of rounds that lowered the root mean square.
+        Number of rounds that lowered the root mean square by more than `tolerance`.
     converged : bool
-        True if the search ended before `max_rounds`.
+        True if the last round lowered it by no more than `tolerance`.
     """
 
     diagram: NDArray[np.float64]

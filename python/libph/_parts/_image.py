@@ -137,7 +137,7 @@ def image_part(image: Any, part: int, parts: int, *, construction: str = "vertic
 
     Reads only the voxels of these layers and of one layer on either side. The image may therefore
     be a memory map, ``numpy.load(path, mmap_mode="r")``, that is larger than the memory of any
-    machine.
+    machine. All options except `slab_layers` and `run` must be the same for all parts.
 
     Parameters
     ----------
@@ -148,7 +148,7 @@ def image_part(image: Any, part: int, parts: int, *, construction: str = "vertic
     parts : int
         Number of parts, at most one per layer.
     construction, superlevel, periodic, threshold, nan, slab_layers
-        As in `cubical`. They must be the same for all parts.
+        As in `cubical`.
     max_dim, min_dim : int, optional
         As in `cubical`. Images with d axes, three or more, need ``max_dim=0`` or, if no axis is
         periodic, ``min_dim=d - 1``, because the dimensions in between need all layers at once. For

@@ -69,10 +69,12 @@ class PersistenceClustering(ClusterMixin, BaseEstimator):
     function_ : ndarray
         f at each point.
 
-    Notes ----- Without `n_clusters` and `min_persistence`, the number of clusters is guessed. Bars
-    that never die are clusters. The other bars are sorted by length, with 0 at the end. If the bar
-    before the largest gap is at least one and a half times as long as the bar after it, this bar
-    and all longer ones are clusters. Look at ``barcode_.plot()`` before you trust the guess.
+    Notes
+    -----
+    Without `n_clusters` and `min_persistence`, the number of clusters is guessed. Bars that never
+    die are clusters. The other bars are sorted by length, with 0 at the end. If the bar before the
+    largest gap is at least one and a half times as long as the bar after it, this bar and all
+    longer ones are clusters. Look at ``barcode_.plot()`` before you trust the guess.
 
     If the graph has several components, each has at least one cluster. If `n_clusters` is smaller,
     components whose densest points are near each other are joined, with a `ConvergenceWarning`.

@@ -79,7 +79,7 @@ class _Persistence(MakesTables, TransformerMixin, TakesLists):
         return self._in_table(X, [row[0] for row in rows] if is_one else rows)
 
     def get_feature_names_out(self, input_features: Any = None) -> NDArray[np.object_]:
-        """The dimensions: H0, H1.
+        """The dimensions: H0, H1; or "barcode" for ``output="barcode"``.
 
         Parameters
         ----------
@@ -188,8 +188,8 @@ class RipsPersistence(_Persistence):
     reduced : bool
         If True, the component that never dies is left out; if there are several, the eldest one.
     n_jobs : int, optional
-        Number of samples computed at a time, in threads. Spare processors are shared among the
-        samples. Default: one.
+        Number of threads, each of which computes one sample at a time. If there are at least twice
+        as many threads as samples, each sample gets several. Default: one.
 
     Examples
     --------
@@ -283,7 +283,7 @@ class CubicalPersistence(_Persistence):
     """The barcodes of images, computed with `libph.cubical`.
 
     Samples are images, which may have different extents. A dimension must be below the number of
-    their axes.
+    their axes; if an axis is periodic, it may equal that number.
 
     Parameters
     ----------

@@ -31,7 +31,9 @@ class DistanceToMeasure(ClassNamePrefixFeaturesOutMixin, TransformerMixin, BaseE
     n_jobs : int, optional
         Number of threads of the search. Default: one.
 
-    See Also -------- libph.distance_to_measure : the same distance for the points themselves.
+    See Also
+    --------
+    libph.distance_to_measure : the same distance for the points themselves.
 
     Examples
     --------

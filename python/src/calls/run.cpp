@@ -26,8 +26,8 @@ using Task = std::function<void(const SharedContext&)>;
 
 constexpr std::chrono::milliseconds kLook(20);
 
-/// The free memory of the machine, minus the memory that this process already uses, for example for
-/// the arrays of the caller.
+/// Nine tenths of the memory of the machine or the container, minus the memory that this process
+/// already uses, for example for the arrays of the caller.
 std::size_t memory_left() {
   // This number is slow to determine.
   static const std::size_t all = machine_memory();

@@ -20,7 +20,7 @@ namespace py = pybind11;
 /// be made while the GIL is held.
 struct RunOptions {
   int threads = 0;  ///< 0 means one per core
-  /// In bytes; if none, the free memory of the machine.
+  /// In bytes; if none, nine tenths of the memory of the machine, minus the memory of this process.
   std::optional<std::size_t> memory_limit;
   std::optional<double> timeout;     ///< in seconds
   py::object progress = py::none();  ///< called with (stage, done, total)

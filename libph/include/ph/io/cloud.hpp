@@ -18,8 +18,9 @@ namespace ph {
 // The readers throw the same errors as the readers of read.hpp. A cloud without points is an error
 // unless options.allow_empty; a NaN coordinate is a hole, not an error.
 
-/// Recognises PCD, PLY and NPY by content; anything else is text, see read_xyz and read_pts. A
-/// cloud without the fields x, y and z is an error.
+/// Recognises PCD and PLY by content or extension, and NPY by content. Anything else is text: PTS
+/// if the extension is .pts and the first line is a number, otherwise as read_xyz reads it. A cloud
+/// without the fields x, y and z is an error.
 Cloud read_cloud(const std::filesystem::path& path, const ReadOptions& options = {});
 Cloud read_cloud(const Input& input, const ReadOptions& options = {});
 

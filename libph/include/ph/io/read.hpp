@@ -340,9 +340,10 @@ Format detect_format(const Input& input);
 
 /// Reads any format.
 /// @param path "-" is standard input. @param format with Format::automatic, see detect_format.
-/// @param values_path a file with the values of the cells of a boundary matrix or of the vertices
-///        of a mesh; empty: none. @throws Error as the readers do; Error (not_built_in) if the
-///        format is not built in; Error (usage) if values are given for a format that takes none.
+/// @param values_path a file with the values of the cells of a boundary matrix, or of the vertices
+///        of a mesh or of simplices; empty: none. @throws Error as the readers do; Error
+///        (not_built_in) if the format is not built in; Error (usage) if values are given for a
+///        format that takes none.
 ReadResult read_any(const std::filesystem::path& path, Format format = Format::automatic,
                     const ReadOptions& options = {}, const std::filesystem::path& values_path = {});
 ReadResult read_any(const Input& input, Format format = Format::automatic,

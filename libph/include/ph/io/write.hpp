@@ -139,7 +139,8 @@ Barcode read_barcode(const Input& input, std::optional<BarcodeFormat> format = s
 struct StoredBarcode {
   Barcode bars;
   BarcodeInfo info;  ///< without loops and p-values; empty for all formats except JSON
-  /// The names of JSON members that are not kept here: "loops", "voxels", "p" and unknown names.
+  /// Data of the file that are not kept here: names of JSON members ("loops", "voxels", "p" and
+  /// unknown names) or of columns ("p", "persistence"), or "birth and death voxels" (NPY).
   std::vector<std::string> left_out;
 };
 StoredBarcode read_stored_barcode(const Input& input,

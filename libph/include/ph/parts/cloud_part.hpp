@@ -80,8 +80,8 @@ class CloudPart {
   Index points() const;
   Index coordinates() const;
   std::optional<double> threshold() const;
-  /// True if this is exactly part `part` of `parts` of a cloud with as many points and coordinates
-  /// as `points`, and with these options. The coordinates are not compared.
+  /// True if this is exactly part `part` of `parts` of the cloud `points`, with these options. The
+  /// coordinates are compared by a fingerprint of 64 bits. O(coordinates).
   bool is_of(PointsView points, int part, int parts, const CloudPartOptions& options) const;
   /// Takes in another part of the same cloud.
   /// @throws Error (bad_data) if it is a part of another cloud, has other options or shares a part

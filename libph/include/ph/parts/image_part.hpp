@@ -49,11 +49,12 @@ struct ImagePartForecast {
 /// change. Parts are computed separately, by any processes on any machines, and can be joined in
 /// any grouping: the bars are the bars of the entire image. See docs/explanation/engines/slabs.md.
 ///
-/// The image has two to eight axes and any number of voxels above one; with loops, a part must have
-/// fewer than about 2^31 voxels. With d >= 3 axes, bars of dimensions 1 to d - 2 need all layers;
-/// if an axis closes up, so do bars of higher dimensions. Requests for these bars are refused,
-/// unless the image is a volume and option `loops` promises that ImageLoops will find them. A
-/// max_dim of 0 and a min_dim of d - 1 are always possible.
+/// The image has two to eight axes that count, and any number of voxels; with loops, a part must
+/// have fewer than about 2^31 voxels. An axis counts if it has more than one voxel or, in the
+/// T-construction, is not periodic. With d >= 3 axes, bars of dimensions 1 to d - 2 need all
+/// layers; if an axis closes up, so do bars of higher dimensions. Requests for these bars are
+/// refused, unless the image is a volume and option `loops` promises that ImageLoops will find
+/// them. A max_dim of 0 and a min_dim of d - 1 are always possible.
 class ImagePart {
  public:
   /// Computes layers n · part / parts up to n · (part + 1) / parts of the n layers of the slowest

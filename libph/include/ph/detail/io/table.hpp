@@ -88,8 +88,8 @@ constexpr std::size_t kMostLookedAt = 64;
 /// entries of a pair, and for entries below 0.
 constexpr double kRounding = 1e-6;
 
-/// @param block the entries of a principal submatrix, row by row, `side`^2 of them. NaN is
-/// compatible with everything.
+/// @param block the entries of a principal submatrix, row by row, `side`^2 of them. A NaN on the
+/// diagonal is ignored. Off the diagonal, it differs from every number, and equals another NaN.
 SquareKind kind_of_square(std::span<const double> block, std::size_t side);
 
 /// True if more than half of the entries off the diagonal are 0: this occurs in pictures, but never
