@@ -82,7 +82,7 @@ std::vector<LinkageRow> linkage(const MergeTree& tree);
 
 /// The merge tree of a filtration. Vertices are numbered as in the input: points, voxels in C order
 /// (V-construction; grid corners in the T-construction), vertices of a complex in input order. For
-/// a Rips filtration, a spanning forest is made instead of all edges.
+/// a Rips filtration without approximation, a spanning forest is made instead of all edges.
 /// @throws Error (usage) on a Rips filtration whose vertices are not all points (some were chosen,
 ///         equal points were to be merged, or births lie beyond the threshold); on an Alpha of a
 ///         periodic space.

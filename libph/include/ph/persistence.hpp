@@ -98,8 +98,9 @@ struct RunPlan {
   /// The reason to collapse edges or not; empty unless the complex is a Rips filtration.
   std::string collapse_reason;
 };
-/// Decides in the same way as `persistence`. For most tasks on a Rips filtration no edges are made;
-/// if the choice depends on the edges, they are made, and a sample of them is collapsed.
+/// Decides in the same way as `persistence`. For most tasks on a Rips filtration no edges are made.
+/// If the choice depends on the edges, they are made; for Collapse::automatic, a sample shows which
+/// share of them is dominated.
 /// @throws as `persistence`.
 RunPlan plan(const AnyComplex& complex, const Options& options = {},
              const RunContext& context = default_context());

@@ -29,7 +29,7 @@ struct PlotSize {
 };
 inline constexpr int kMostPlotPixels = 10'000;
 
-/// The range of filtration values on the axis. Classes outside the range are counted, not drawn.
+/// The range of filtration values on the axis. Bars outside the range are counted, not drawn.
 struct PlotAxis {
   std::optional<double> low, high;  ///< low < high; empty: up to the extreme values
   bool logarithmic = false;         ///< values of at most 0 are drawn at the low end
@@ -89,9 +89,9 @@ std::string svg_plot(const ColouredPicture& picture, const PlotOptions& options 
 /// PNG plots are not built in.
 std::string png_plot_support();
 
-/// The pictures of svg_plot() as complete PNG files: 1040 pixels wide, which is 88 mm at 300 dots
-/// per inch, the resolution stored in the file. The same input gives the same pixels, whatever
-/// fonts are installed.
+/// The pictures of svg_plot() as complete PNG files. Without options.size, they are 1040 pixels
+/// wide, which is 88 mm at 300 dots per inch, the resolution stored in the file. The same input
+/// gives the same pixels, whatever fonts are installed.
 /// @throws Error (not_built_in) if the library was built without FreeType; Error (resource) if the
 /// pixels exceed the memory limit.
 std::string png_plot(const Barcode& barcode, const PlotOptions& options = {},

@@ -30,8 +30,9 @@ struct Lens {
 
   /// The place where the ray (x, y, 1) meets the image, in focal lengths from the principal point.
   std::array<double, 2> bent(double x, double y) const;
-  /// The distance from the axis up to which rays (x, y, 1) meet the image one to one; beyond it, a
-  /// polynomial may fall and rise again. Infinity if there is no such limit.
+  /// A limit for the distance of rays (x, y, 1) from the axis. Distances in the image fall beyond a
+  /// first fold of a polynomial, and rise again beyond a second fold; the limit lies midway between
+  /// the two. Infinity if there is no second fold.
   double reach() const;
   /// The inverse of `bent`, by Newton's method: x and y of the ray that meets the image there, or
   /// nothing if there is none in the part of the image where the model is one to one.
@@ -50,8 +51,9 @@ struct Camera {
   /// Depth units per metre in depth images of whole numbers; 0 if not known.
   double depth_scale = 0;
 
-  /// The same camera for images of another size and the same shape, scaled.
-  /// @throws Error (usage), which names both sizes, if the shape differs.
+  /// The same camera for images of another size and the same shape, scaled. With `crops_sides`, the
+  /// shape may differ.
+  /// @throws Error (usage), which names both sizes, if the shape differs but may not.
   Camera scaled_to(Index new_width, Index new_height) const;
 };
 

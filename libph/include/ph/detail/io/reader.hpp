@@ -46,17 +46,17 @@ struct Fault {
 /// bytes are counted in the unpacked text. Move only.
 class Input {
  public:
-  /// The treatment of a regular file that exceeds the memory budget of the run, before or after it
-  /// is unpacked.
+  /// The treatment of a regular file that would take more than a third of the memory left in the
+  /// budget of the run, before or after it is unpacked.
   enum class Excess {
     refused,
     stays_in_file,  ///< mapped (unpacked data in a temporary file), not counted
-    is_expected,    ///< as stays_in_file, except for small files: the caller will read only a part
+    is_expected,    ///< so are all files except small ones: the caller will read only a part
   };
 
   /// @param path a file, a FIFO, or "-" for standard input; for a part of a file see split_member.
   /// @param context its memory budget limits a stream, and its stop token is polled; it must
-  ///        outlive the input. Without a context, a stream may take half of the machine's memory.
+  ///        outlive the input. Without a limit, a stream may take half of the machine's memory.
   /// @throws Error (no_input) if the file is missing, unreadable or a directory; Error (io) if
   ///         reading fails partway; Error (resource) if a stream or the unpacked data exceed the
   ///         budget; Error (bad_data) if compressed data are damaged or expand beyond reason, or if
@@ -86,8 +86,8 @@ class Input {
   /// The part of an archive or of a mesh that was requested; empty if none was.
   const std::string& member() const { return member_; }
   const RunContext* context() const { return context_; }
-  /// True if the input exceeds the memory budget. Such an input should be read block by block (see
-  /// `done_with`).
+  /// True if the input stays in a file and is not counted. Such an input should be read block by
+  /// block (see `done_with`).
   bool stays_in_file() const;
   /// Counts the memory of the input from now on, for readers that need the input as a whole.
   /// @throws Error (resource) if it does not fit.
