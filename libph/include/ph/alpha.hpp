@@ -108,11 +108,11 @@ class Alpha {
   /// @param context must outlive the filtration.
   /// @throws Error (usage) on points in R⁴ or a higher dimension; if the number of weights is not
   ///         the number of points; on Unit::radius, or kinds of value other than `alpha`, for
-  ///         weighted points; on lengths that are negative, not finite or not one per axis; and on
-  ///         kinds of value other than `alpha` in a periodic space. Error (bad_data) on numbers
-  ///         that are not finite, on coordinates whose magnitudes differ too much for their squares
-  ///         to be doubles, and, for squared values, on coordinates whose square is not a double.
-  ///         Error (resource, cancelled, not_built_in).
+  ///         weighted points; on a threshold that is NaN; on lengths that are negative, not finite
+  ///         or not one per axis; and on kinds of value other than `alpha` in a periodic space.
+  ///         Error (bad_data) on numbers that are not finite, on coordinates whose magnitudes
+  ///         differ too much for their squares to be doubles, and, for squared values, on
+  ///         coordinates whose square is not a double. Error (resource, cancelled, not_built_in).
   explicit Alpha(PointsView points, const AlphaOptions& options = {},
                  const RunContext& context = default_context());
 

@@ -58,9 +58,9 @@ ExplicitComplex listed(const F& filtration, const RunContext& context = default_
 // task). EngineFacts explains them. can_run, suitability and run are templates of the filtration.
 // detail/reduction/twist.hpp is a short example.
 
-/// Adds an engine of your own to all complexes of libph until the program ends: Options can name
-/// it, `engine_names` lists it, and it is chosen where it suits best. Add engines before other
-/// threads compute. @throws Error (usage) if its name is taken.
+/// Adds an engine of your own to all complexes of libph except Alpha, until the program ends:
+/// Options can name it, `engine_names` lists it, and it is chosen where it suits best. Add engines
+/// before other threads compute. @throws Error (usage) if its name is taken.
 template <class E>
 void add_engine();
 /// Adds an engine to a complex of your own, which otherwise has the engines for any filtration.

@@ -71,8 +71,8 @@ struct BottleneckMatching {
 
 /// A pairing that attains the bottleneck distance. Births and deaths of a pair differ by at most
 /// that distance, and bars without a pair are at most twice that distance long. Running time,
-/// parameters and errors are as for bottleneck_distance; each diagram must have fewer than 2³²
-/// bars.
+/// parameters and errors are as for bottleneck_distance. For all distances, each diagram must have
+/// fewer than 2³² - 1 bars.
 BottleneckMatching bottleneck_matching(std::span<const Bar> a, std::span<const Bar> b,
                                        const RunContext& context = default_context());
 

@@ -38,10 +38,11 @@ StepFunction euler_curve(std::span<const Bar> bars);
 /// computes no bars. The curve equals the curve of the barcode.
 ///
 /// Each voxel counts the cells whose value it decides: for each of the 3^d - 1 directions in which
-/// a cell may lie, the voxel is compared with a neighbour, many voxels of a row at a time. Only
-/// three layers along the first axis are held in memory. Bytes and 16-bit numbers go into one
-/// histogram; for floats, the voxels at which the curve may change are sorted. Threads share the
-/// layers; the result does not depend on the number of threads. Source: Heiss, Wagner, Streaming
+/// a cell may lie, the voxel is compared with a neighbour, many voxels of a row at a time. Each
+/// thread holds only three layers along the first axis in memory. Bytes, and 16-bit numbers of
+/// images of at least 2^15 voxels, go into one histogram; otherwise, the voxels at which the curve
+/// may change are sorted. Threads share the layers; the result does not depend on the number of
+/// threads. Source: Heiss, Wagner, Streaming
 /// algorithm for Euler characteristic curves of multidimensional images, 2017 (a voxel counts the
 /// cells that enter with it). O(voxels · 3^d) time and O(changes) memory.
 /// @throws Error (resource, cancelled).

@@ -21,7 +21,7 @@ class FilteredGraph {
   using Cell = std::uint32_t;
 
   /// @param births a value for each vertex 0 … size-1. @param edges in any order; parallel edges
-  /// and loops are allowed; ties are broken by position. O(vertices log vertices + edges).
+  /// and loops are allowed; ties are broken by position. O(vertices + edges log edges).
   /// @throws Error (bad_data) on NaN, on a vertex out of range and on an edge that enters before
   ///         one of its ends; Error (resource) beyond 2^32 - 2 cells or the memory limit.
   FilteredGraph(std::span<const double> births, std::span<const WeightedEdge> edges,

@@ -30,9 +30,9 @@ void require_unpacked(const std::string& path);
 /// flushes to disk and renames; the output may therefore be one of the program's own inputs.
 /// Without `commit` nothing is left behind. Some targets cannot be replaced and are written
 /// directly: "-" (standard output), /dev/stdout and other names of descriptors, the file to which
-/// standard output is redirected, devices, FIFOs. A symbolic link is followed. The new file takes
-/// the mode of the file that it replaces, except for set-ID bits, and also the owner and group if
-/// that is allowed.
+/// standard output or standard error is redirected, devices, FIFOs. A symbolic link is followed.
+/// The new file takes the mode of the file that it replaces, except for set-ID bits, and also the
+/// owner and group if that is allowed.
 class OutputFile {
  public:
   /// @param path "-" for standard output.
