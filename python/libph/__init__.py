@@ -25,8 +25,8 @@ stop : threading.Event
 
 The data must not change while a computation runs. `limits` sets defaults for a block of code.
 
-Three modules need additional packages and are loaded on first use: `libph.sklearn`, `libph.torch`,
-and `libph.compat`, which offers the interfaces of other packages.
+Three modules are loaded on first use: `libph.sklearn` and `libph.torch`, which need scikit-learn
+and torch, and `libph.compat`, which offers the interfaces of other packages.
 """
 import typing as _typing
 
