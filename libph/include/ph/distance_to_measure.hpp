@@ -18,7 +18,7 @@ namespace ph {
 
 /// The distance of each of `points` to the empirical measure of all these points. Uses a k-d tree
 /// where that is faster (Euclidean, Manhattan, Chebyshev and Minkowski distance in at most 8
-/// dimensions, for k up to 513): usually O(n k log n), otherwise O(n^2).
+/// dimensions, for k from 2 to 513): usually O(n k log n), otherwise O(n^2).
 /// @param points one point per row. @param p exponent of PointDistance::minkowski.
 /// @param neighbours k, from 1 to the number of points.
 /// @throws Error (usage) if k is out of range; Error (bad_data) as PointMetric.

@@ -51,7 +51,7 @@ class Input {
   enum class Excess {
     refused,
     stays_in_file,  ///< mapped (unpacked data in a temporary file), not counted
-    is_expected,    ///< so are all files except small ones: the caller will read only a part
+    is_expected,    ///< the same for all files but small ones: the caller will read only a part
   };
 
   /// @param path a file, a FIFO, or "-" for standard input; for a part of a file see split_member.
