@@ -9,7 +9,6 @@
 #include "libsegment/src/plane/plane.hpp"
 #include "libsegment/src/plane/sample.hpp"
 #include "libsegment/src/plane/squares.hpp"
-#include "libsegment/src/plane/stages.hpp"
 
 namespace ph::segment {
 namespace {
@@ -90,19 +89,36 @@ class Extents {
   std::map<double, std::pair<double, double>> of_;
 };
 
-/// The number of squares in which something is in front of the plane, and the plane is seen on all
-/// four sides: the area of the plane on which things stand. In front of a wall, things are at its
+/// Removes a square and all squares that are connected with it. Squares are connected if at most
+/// one square is between them, because a sample leaves gaps.
+void remove_group(const Square& first, std::set<Square>& squares) {
+  constexpr int reach = 2;
+  std::vector<Square> open{first};
+  squares.erase(first);
+  while (!open.empty()) {
+    const auto [column, row] = open.back();
+    open.pop_back();
+    for (int x = -reach; x <= reach; ++x)
+      for (int y = -reach; y <= reach; ++y)
+        if (const Square near{column + x, row + y}; squares.erase(near) > 0) open.push_back(near);
+  }
+}
+
+/// The number of things on a plane: groups of connected squares in which something is in front of
+/// the plane, while the plane is seen on all four sides. In front of a wall, most things are at its
 /// lower end.
-std::size_t squares_with_things(const Squared& plane) {
+std::size_t count_things(const Squared& plane) {
   Extents rows, columns;
   for (const auto& [column, row] : plane.on) {
     rows.add(row, column);
     columns.add(column, row);
   }
-  return static_cast<std::size_t>(std::ranges::count_if(plane.in_front, [&](const Square& s) {
-    const auto& [column, row] = s;
-    return rows.surround(row, column) && columns.surround(column, row);
-  }));
+  std::set<Square> squares;
+  for (const auto& [column, row] : plane.in_front)
+    if (rows.surround(row, column) && columns.surround(column, row)) squares.insert({column, row});
+  std::size_t things = 0;
+  for (; !squares.empty(); ++things) remove_group(*squares.begin(), squares);
+  return things;
 }
 
 }  // namespace
@@ -121,7 +137,7 @@ PlaneSearch find_support(const CloudView& cloud, const std::vector<Index>& point
             "no plane: the largest candidate is smaller than a table, and nothing is on it"};
   if (!bounds_the_view(*largest.plane, cloud)) return largest;  // mutant: support-wall
   PlaneSearch support = largest;
-  std::size_t most_things = squares_with_things(around);
+  std::size_t most_things = count_things(around);
   std::vector<Index> rest = points;
   for (int k = 1; k < most_planes; ++k) {
     std::erase_if(rest, [&](Index i) {
@@ -134,7 +150,7 @@ PlaneSearch find_support(const CloudView& cloud, const std::vector<Index>& point
     largest.plane->share *= static_cast<double>(rest.size()) / static_cast<double>(points.size());
     const Squared seen = squared(*largest.plane, sample);
     if (largest.plane->share < kLeastShareOfSupport || goes_on_behind(seen)) break;
-    if (const std::size_t things = squares_with_things(seen); things > most_things) {
+    if (const std::size_t things = count_things(seen); things > most_things) {
       most_things = things;
       support = largest;
     }

@@ -7,6 +7,7 @@
 #include <map>
 #include <numeric>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "libsegment/src/plane/plane.hpp"
@@ -53,16 +54,17 @@ Outline hull_of(Outline points) {
   return hull;
 }
 
+/// @param hull at least three points.
 bool is_inside(const Outline& hull, const Eigen::Vector2d& p) {
   for (std::size_t i = 0; i < hull.size(); ++i)
     if (cross(hull[(i + 1) % hull.size()] - hull[i], p - hull[i]) < 0) return false;
-  return hull.size() > 2;
+  return true;
 }
 
 class Containers {
  public:
   Containers(const SceneTree& scene, const Surface& surface, const Parts& objects)
-      : scene_(scene), things_(objects.count()) {
+      : scene_(scene), things_(objects.count()), touching_(things_.size()) {
     const Eigen::Matrix3d turn = upright(scene.plane->normal);
     std::vector<std::vector<Eigen::Vector3d>> places(things_.size());
     for (std::size_t v = 0; v < objects.of.size(); ++v) {
@@ -72,10 +74,19 @@ class Containers {
           turn * as_matrix(scene.vertices).row(static_cast<Index>(v)).transpose());
     }
     for (std::size_t k = 0; k < things_.size(); ++k) measure(things_[k], places[k]);
+    constexpr Index fewest = 10;  // pairs of voxels that are near each other
+    std::map<std::pair<std::uint32_t, std::uint32_t>, Index> contacts;
     for (const VoxelPair& pair : surface.pairs) {
       const std::uint32_t a = objects.of[pair.u], b = objects.of[pair.v];
-      if (a != b && a != Parts::kSmall && b != Parts::kSmall) ++contacts_[std::minmax(a, b)];
+      if (a != b && a != Parts::kSmall && b != Parts::kSmall) ++contacts[std::minmax(a, b)];
     }
+    for (const auto& [both, count] : contacts) {
+      if (count < fewest) continue;
+      touching_[both.first].push_back(both.second);
+      touching_[both.second].push_back(both.first);
+    }
+    for (std::size_t k = 0; k < things_.size(); ++k) by_x_.push_back(k);
+    std::ranges::sort(by_x_, {}, [&](std::size_t k) { return things_[k].middle.x(); });
   }
 
   /// The numbers of the objects that are one container, floor first, and of the objects in it.
@@ -88,14 +99,20 @@ class Containers {
     Found found{{floor}, {}};
     Outline plan = things_[floor].plan;
     double top = things_[floor].top;
-    for (std::size_t w = 0; w < things_.size(); ++w) {
-      if (w == floor || !is_wall_of(w, floor)) continue;
+    for (const std::size_t w : touching_[floor]) {
+      if (!is_wall_of(w, floor)) continue;
       found.parts.push_back(w);
       plan.insert(plan.end(), things_[w].plan.begin(), things_[w].plan.end());
       top = std::max(top, things_[w].top);
     }
     const Outline hull = hull_of(std::move(plan));
-    for (std::size_t k = 0; k < things_.size(); ++k) {
+    if (hull.size() < 3) return std::nullopt;  // nothing is inside a point or a line
+    const auto x_of = [](const Eigen::Vector2d& p) { return p.x(); };
+    const auto [left, right] = std::ranges::minmax(hull, {}, x_of);
+    const auto middle_of = [&](std::size_t k) { return things_[k].middle.x(); };
+    const auto first = std::ranges::lower_bound(by_x_, left.x(), {}, middle_of);
+    const auto last = std::ranges::upper_bound(by_x_, right.x(), {}, middle_of);
+    for (const std::size_t k : std::span(first, last)) {
       const Eigen::Vector3d& middle = things_[k].middle;
       if (std::ranges::find(found.parts, k) == found.parts.end() &&
           // mutant: container-top
@@ -105,12 +122,8 @@ class Containers {
     }
     return found.objects.size() < fewest ? std::nullopt : std::optional(std::move(found));
   }
-  /// True if two objects touch.
   bool touch(std::size_t a, std::size_t b) const {
-    constexpr Index fewest = 10;  // pairs of voxels
-    const auto contact =
-        contacts_.find(std::minmax(static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b)));
-    return contact != contacts_.end() && contact->second >= fewest;
+    return std::ranges::find(touching_[a], b) != touching_[a].end();
   }
   std::vector<std::size_t> largest_first() const {
     std::vector<std::size_t> order(things_.size());
@@ -135,13 +148,13 @@ class Containers {
     thing.plane = plane_through(scene_.vertices, scene_.normals, thing.voxels, scene_.viewpoint);
     if (thing.plane && thing.plane->share < kLeastShareOnSurface) thing.plane.reset();
   }
+  /// @param wall an object that touches the floor.
   bool is_wall_of(std::size_t wall, std::size_t floor) const {
     constexpr double largest_cosine = 0.5;  // of the angle with the support
     const std::optional<Plane>& plane = things_[wall].plane;
     if (!plane || std::abs(cosine_between(*plane, *scene_.plane)) > largest_cosine) return false;
     const std::vector<Index>& voxels = things_[floor].voxels;
-    return touch(wall, floor) &&
-           count_behind(*plane, voxels) <= kMostBehind * static_cast<double>(voxels.size());
+    return count_behind(*plane, voxels) <= kMostBehind * static_cast<double>(voxels.size());
   }
   /// The number of voxels that are behind a plane and beyond its margin.
   double count_behind(const Plane& plane, const std::vector<Index>& voxels) const {
@@ -154,8 +167,8 @@ class Containers {
 
   const SceneTree& scene_;
   std::vector<Thing> things_;
-  // For each pair of objects, the number of pairs of voxels that are near each other.
-  std::map<std::pair<std::uint32_t, std::uint32_t>, Index> contacts_;
+  std::vector<std::vector<std::size_t>> touching_;  // for each object, the objects that it touches
+  std::vector<std::size_t> by_x_;                   // the objects, ordered by x of their middles
 };
 
 }  // namespace

@@ -21,7 +21,8 @@ struct Container {
 /// the floor, and nothing of the floor is behind it.
 /// @param object_of for each voxel, one of the voxels of its object. The walls of a container get
 /// the number of its floor. @param min_size the fewest voxels of an object.
-/// @return the containers, largest first. Takes O(voxels + objects²) time.
+/// @return the containers, largest first. Takes O(voxels log voxels) time, plus time for
+/// the objects within the extent of each object along one axis.
 std::vector<Container> join_containers(const SceneTree& scene, const Surface& surface,
                                        Index min_size, std::vector<Index>& object_of);
 
