@@ -72,7 +72,7 @@ MILLION = {"1 000 000 in a square": lambda: uniform(1_000_000, 2),
 
 
 def write(path, rows):
-    """Writes rows of float64 as a NPY file."""
+    """Writes rows of float64 as an NPY file."""
     shape = f"({len(rows)}, {len(rows[0])})" if isinstance(rows[0], list) else f"({len(rows)},)"
     header = f"{{'descr': '<f8', 'fortran_order': False, 'shape': {shape}, }}".ljust(117) + "\n"
     flat = [x for row in rows for x in row] if isinstance(rows[0], list) else rows

@@ -70,7 +70,8 @@ class ChosenNumbers {
 
  private:
   int signed_byte() { return static_cast<signed char>(byte()); }
-  /// The double that is `places` places after x in the order of doubles.
+  /// The double whose bits, as an integer, are the bits of x plus `places`. For negative x, it lies
+  /// before x if `places` is positive. Returns x if the result is not finite.
   static double moved(double x, int places) {
     const double result =
         std::bit_cast<double>(std::bit_cast<std::uint64_t>(x) + static_cast<std::uint64_t>(places));

@@ -92,7 +92,7 @@ Content content_of(const Image& image) {
   require_image(image);
   Content content;
   content.head = fmt::format("{}", fmt::join(image.extents, " x "));
-  for (const double value : image.values)  // an absent voxel is NaN, which equals nothing
+  for (const double value : image.values)  // an absent voxel is any NaN
     content.numbers.push_back(std::isnan(value) ? kInfinity : value);
   content.end_row();
   return content;

@@ -55,7 +55,8 @@ class TableScene {
              (static_cast<double>(v) + 0.5) / finer - 120);
     }
   }
-  /// A table with two boxes of 10 cm, 20 cm apart; the left box is larger.
+  /// A table with two boxes, 20 cm apart. The left box has sides of 12 cm, and the right box of 10
+  /// cm.
   static TableScene two_boxes() {
     return TableScene(
         {{{-0.22, -0.05, 0}, {-0.10, 0.07, 0.12}}, {{0.10, -0.05, 0}, {0.2, 0.05, 0.1}}});

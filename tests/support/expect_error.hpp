@@ -23,7 +23,7 @@ void expect_error(ErrorKind kind, const std::string& part, Act&& act) {
   ADD_FAILURE() << "expected an error with '" << part << "', found none";
 }
 
-/// True if `act` throws an Error. An error of another kind fails the test.
+/// True if `act` throws an Error of this kind. An Error of another kind fails the test.
 template <class Act>
 bool fails_with(ErrorKind kind, Act&& act) {
   try {

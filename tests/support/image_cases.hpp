@@ -42,8 +42,8 @@ inline KeptAxes kept_axes(const std::vector<Index>& extents, const CubicalOption
   return kept;
 }
 
-/// A random image with two or three axes, for either construction. It may have ties, holes,
-/// infinities, axes of one voxel, periodic axes and a threshold.
+/// A random image with two or three axes of several voxels, for either construction. It may have
+/// ties, holes, infinities, one more axis of one voxel, periodic axes and a threshold.
 inline ImageCase random_image_case(Generator& random) {
   const int axes = random.integer(2, 3), most = axes == 2 ? 9 : 5;
   ImageCase result{{}, {}, 0};
@@ -67,9 +67,9 @@ inline ImageCase random_image_case(Generator& random) {
   return result;
 }
 
-/// A random image with four or five axes, in which voxels may be absent. Requests either the
-/// components, or the bars of the second-highest dimension. To create bars of this dimension, low
-/// voxels surround high voxels.
+/// A random image with four or five axes, in which voxels may be absent. If parts take at least
+/// three of the axes into account, requests either the components or the bars of the second-highest
+/// dimension. To create bars of this dimension, low voxels surround high voxels.
 inline ImageCase random_case_of_many_axes(Generator& random) {
   const int axes = random.integer(0, 3) == 0 ? 5 : 4, most = axes == 4 ? 4 : 3;
   const bool has_hollows = random.coin();

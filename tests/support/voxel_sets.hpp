@@ -12,8 +12,8 @@ namespace ph::test {
 using Place = std::size_t;
 using PlaceSet = std::set<Place>;
 
-/// An image as a graph. Its nodes are the voxels and the outside. If exactly one axis is not
-/// periodic, the outside has two nodes, and otherwise one.
+/// An image as a graph. Its nodes are the voxels and the outside. If exactly one of the axes with
+/// more than one cell is not periodic, the outside has two nodes, and otherwise one.
 class VoxelNeighbours {
  public:
   VoxelNeighbours(const std::vector<Index>& extents, std::vector<bool> periodic,
@@ -114,8 +114,8 @@ class VoxelNeighbours {
   int open_axes_ = 0;
 };
 
-/// Checks the representatives if sets of voxels are requested: which bars have a set, and which
-/// voxels are in each set. The other bars have a cycle.
+/// Checks bars whose representatives were requested as sets of voxels: which bars have a set, and
+/// which voxels are in each set. The other bars must have a cycle.
 inline void check_voxel_sets(const Image& image, const CubicalOptions& options, const Barcode& bars,
                              std::int64_t field) {
   const VoxelNeighbours grid(image.extents, options.periodic, options.construction);

@@ -152,7 +152,8 @@ class Allocation : public testing::Test {
     return done;
   }
 
-  /// Makes each allocation of a run fail, once alone and once together with all later allocations.
+  /// Makes allocations of a run fail, each of them once alone and once together with all later
+  /// allocations.
   void check(const std::function<void()>& run) {
     run();  // creates the objects that exist once per process
     outputs();

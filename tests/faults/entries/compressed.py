@@ -133,8 +133,8 @@ def bombs():
     yield refused(40, "gzip", "256 MiB behind a small member", gzipped(TEXT) + bomb, too_much)
     for form in ("npy", "nifti", "pcd", "ply", "dipha"):
         yield refused(40, form, "256 MiB", bomb, too_much)
-    # The gzip trailer states a wrong size. Unpacking stops at the larger of the stated size and 128
-    # MiB.
+    # The gzip trailer states a size that is too small. Unpacking still stops, at the larger of 128
+    # MiB and 256 times the packed size. Here, this is 128 MiB.
     yield refused(40, "gzip", "256 MiB, said to be 1", with_bytes(bomb, -4, b"\1\0\0\0"), too_much,
                   frugal=False)
     yield refused(40, "gzip", "twice packed", gzipped(gzipped(TEXT)), "not plain text|not a number|NUL")

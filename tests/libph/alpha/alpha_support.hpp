@@ -19,9 +19,10 @@ struct Cloud {
   AlphaOptions options() const { return {.weights = weights, .unit = AlphaOptions::Unit::squared}; }
 };
 
-/// A few points of a random kind: anywhere; on a small grid, where many points coincide or lie on
-/// the same sphere, plane or line; on a circle, a sphere or a line; in a plane in space; on a grid
-/// whose coordinates are not exact as doubles. For each kind, some points are duplicated.
+/// A few points of a random kind in space: anywhere; on a grid or a small grid, where many points
+/// coincide or lie on the same sphere, plane or line; on a sphere or a line; in or near a plane; on
+/// a grid whose coordinates are not exact as doubles. With one or two dimensions, only the first
+/// coordinates are kept. In a quarter of the clouds, some points are duplicated.
 inline Cloud any_cloud(Generator& random, Index most, bool weighted) {
   const Index dim = random.integer(1, 5) == 1 ? 1 : random.integer(2, 3);
   const Index n = random.integer(1, static_cast<int>(most));

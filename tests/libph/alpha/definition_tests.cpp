@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Compares values and bars with the definition, computed with exact numbers. With PH_TEST_SEEDS=50,
-// the test tries 20 000 sets of points.
+// the tests try more than 20 000 sets of points.
 #include <gtest/gtest.h>
 
 #include "tests/libph/alpha/alpha_oracle.hpp"

@@ -100,7 +100,7 @@ TEST(Bottleneck, IsThatOfGrowingMatchings) {
   for (int round = 0; round < 40; ++round) {
     const int steps = round % 2 == 0 ? 0 : 20;
     const Bars a = random_bars(random, 10 + random() % 51, steps);
-    Bars b = a;  // in half of the rounds, most bars of `b` are near a bar of `a`
+    Bars b = a;  // in half of the rounds, every bar of `b` is near a bar of `a`
     if (round % 4 < 2)
       b = random_bars(random, 10 + random() % 51, steps);
     else

@@ -196,7 +196,8 @@ TEST(CloudPart, LeavesOutWhatIsFar) {
   EXPECT_LT(part.bytes().size(), 200000 / 16 * 27);
 }
 
-// In all parts or in only one part, the squares of coordinates are beyond the range of doubles.
+// Coordinates differ by hundreds of orders of magnitude, and squares of some of them are beyond the
+// range of doubles.
 TEST(CloudPart, OfCoordinatesOfAnySize) {
   for_each_seed(600, [&](Generator& random, bool ties, std::int64_t) {
     Points points = random_cloud(random, 40, ties);
@@ -349,7 +350,7 @@ TEST(CloudPart, FindsEdgesThatAreMissing) {
   EXPECT_GT(found, all / 4);
 }
 
-// Checks that every flipped bit is detected.
+// Checks that every truncation, every flipped bit and an appended byte are detected.
 TEST(CloudPart, RefusesDamagedBytes) {
   Generator random(8);
   const Points points = random.points(40, 2, true);

@@ -263,7 +263,7 @@ TEST(MergeTrees, AtAValueThatIsNoneNothingHasEntered) {
   EXPECT_EQ(line.components(std::numeric_limits<double>::quiet_NaN()), std::vector<Index>(5, -1));
 }
 
-// A chain of as many merges as there are vertices must not take quadratic time.
+// A chain that merges all vertices one after another must not take quadratic time.
 TEST(MergeTrees, LongChains) {
   constexpr Index n = 300000;
   std::vector<double> births(static_cast<std::size_t>(n));

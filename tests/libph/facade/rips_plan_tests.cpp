@@ -24,7 +24,7 @@ constexpr std::array kDistances{PointDistance::euclidean, PointDistance::manhatt
                                 PointDistance::chebyshev, PointDistance::hamming};
 constexpr std::array kExponents{WeightExponent::infinity, WeightExponent::one, WeightExponent::two};
 
-/// Points in general position, or points with ties and copies.
+/// Random points, with ties if requested. About one point in six is a copy of an earlier point.
 Points random_points(Generator& random, Index most, bool ties) {
   Points points =
       random.points(random.integer(0, static_cast<int>(most)), random.integer(1, 4), ties);

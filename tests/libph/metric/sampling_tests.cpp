@@ -93,7 +93,8 @@ TEST(GreedyPermutations, AreWhatTheyAreByDefinition) {
   });
 }
 
-// There are several full blocks of points and one incomplete block.
+// The code processes blocks of 512 points. There are one to four blocks, of which the last may be
+// incomplete.
 TEST(GreedyPermutations, OfManyPoints) {
   Generator random(3);
   for (const Index n : {511, 512, 513, 2000}) {

@@ -302,7 +302,7 @@ TEST(RipsInputs, MergedPointsAreNamedByTheFirstOfThem) {
   expect_error(ErrorKind::bad_data, "point 1", [&] { Rips(points, {.merge_equal_points = true}); });
 }
 
-// Each pair of copies would be an edge. In total, there would be 10^12 edges.
+// Each pair of points would be an edge. In total, there would be 5 * 10^11 edges.
 TEST(RipsInputs, AMillionCopiesTakeNearLinearTime) {
   Points points(1000000, 3);
   for (Index i = 0; i < points.rows(); ++i)

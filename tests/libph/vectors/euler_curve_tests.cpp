@@ -73,7 +73,7 @@ TEST(EulerCurves, OfImagesAreThoseOfTheirBars) {
   });
 }
 
-/// The image with its values converted to whole numbers of a type.
+/// Checks the Euler curve of a random image whose voxels are whole numbers of type T.
 template <class T>
 void check_type(Generator& random, bool ties) {
   const int axes = random.integer(1, 3);

@@ -259,7 +259,7 @@ TEST(Surface, NoiseThatGrowsWithTheRangeLeavesTheTableEmpty) {
 }
 
 TEST(Surface, HalfABallIsOne) {
-  std::vector<float> xyz;  // the half of a ball of 8 cm that is visible from the origin
+  std::vector<float> xyz;  // half of a ball with a radius of 8 cm, towards the origin
   constexpr int steps = 120;
   for (int i = 0; i < steps; ++i) {
     for (int k = 0; k < steps; ++k) {

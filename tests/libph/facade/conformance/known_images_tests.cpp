@@ -76,7 +76,8 @@ TEST(KnownImages, BirthsAtMinusInfinity) {
   }
 }
 
-// A ring of voxels four voxels thick, which is a solid torus and has the homology of a circle.
+// A ring of voxels whose cross-section has 2 x 2 voxels. It is a solid torus and has the homology
+// of a circle.
 TEST(KnownImages, SolidTorus) {
   std::vector<double> values;
   for (Index x = 0; x < 5; ++x)

@@ -117,7 +117,7 @@ TEST(ImagesInFiles, ChangeInMemory) {
   EXPECT_EQ(image.values[7], before);
 }
 
-/// Files of a few megabytes. Half of the files have a random fault.
+/// Files of a few megabytes. About half of the files have a random fault.
 class RandomFiles {
  public:
   struct File {
