@@ -41,7 +41,7 @@ def blurred(shape):
 
 
 def waves(shape):
-    """Four waves along each axis without noise: an image with hardly any bars."""
+    """A few waves along each axis without noise: an image with hardly any bars."""
     z, y, x = numpy.meshgrid(*[numpy.linspace(0, 8 * numpy.pi, n, dtype=numpy.float32) for n in shape], indexing="ij",
                              sparse=True)
     return numpy.sin(z) + numpy.sin(1.3 * y) * numpy.cos(z) + numpy.sin(.7 * x) * numpy.cos(.9 * y)

@@ -201,7 +201,7 @@ def supervoxel_scores(labels, prediction, radius=2):
     within the radius. Under-segmentation error (Neubert & Protzel, Superpixel benchmark and
     comparison, 2012): each piece contributes, for each object that it overlaps, the smaller of its
     two numbers of pixels inside and outside the object; the sum is divided by the number of pixels
-    of objects.
+    of objects. Only pixels of objects count.
 
     """
     truth, objects = truth_of(labels, parts=False)

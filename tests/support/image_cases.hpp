@@ -148,8 +148,8 @@ inline std::vector<Index> random_first_layers(Generator& random, int layers, int
   return first;
 }
 
-/// True if parts refuse the requested results. Parts of volumes refuse all requests that need bars
-/// of dimension 1.
+/// True if parts refuse the requested results. Parts refuse bars between dimension 0 and the
+/// second-highest dimension, except for loops of volumes if the option `loops` is set.
 inline bool is_refused(const ImageCase& c) {
   try {
     ImagePart(c.image, 0, 1, c.options);

@@ -89,7 +89,7 @@ class OrderedCells {
   std::vector<Level> levels_;
 };
 
-/// The representative of a bar. Checks that it has no boundary (or coboundary).
+/// The representative of a bar, which must be a cycle. Checks that it has no boundary.
 template <Filtration F>
 PositionChain closed_cycle(const OrderedCells<F>& cells, const Barcode& bars, std::size_t i) {
   const int dim = bars[i].dim;

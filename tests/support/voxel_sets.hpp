@@ -12,8 +12,9 @@ namespace ph::test {
 using Place = std::size_t;
 using PlaceSet = std::set<Place>;
 
-/// An image as a graph. Its nodes are the voxels and the outside. If exactly one of the axes with
-/// more than one cell is not periodic, the outside has two nodes, and otherwise one.
+/// An image as a graph. Its nodes are the voxels and the outside. An axis has two ends if
+/// has_axis() is true and it is not periodic. If exactly one axis has ends, the outside has two
+/// nodes, and otherwise one.
 class VoxelNeighbours {
  public:
   VoxelNeighbours(const std::vector<Index>& extents, std::vector<bool> periodic,
@@ -28,7 +29,7 @@ class VoxelNeighbours {
   }
   Place size() const { return size_; }
   Place outside(bool upper) const { return size_ + (open_axes_ == 1 && upper ? 1 : 0); }
-  /// True if there is more than one cell along axis k.
+  /// True if axis k has several voxels or, in the T-construction, is not periodic.
   bool has_axis(std::size_t k) const { return extents_[k] > 1 || (!is_vertices_ && !periodic_[k]); }
   int axes() const {
     int count = 0;

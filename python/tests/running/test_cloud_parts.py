@@ -138,7 +138,7 @@ def _anonymous():
 
 
 def test_points_stay_in_their_file(tmp_path):
-    """One of 64 parts of a 64 MB cloud is computed in less than 64 MB."""
+    """One of 64 parts of a 64 MiB cloud is computed in less than 50 MB."""
     path = tmp_path / "points.npy"
     np.save(path, RNG.random((4 << 20, 2)))
     points = np.load(path, mmap_mode="r")

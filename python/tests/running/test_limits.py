@@ -51,7 +51,7 @@ def test_memory_that_the_system_refuses():
 
 
 def test_a_copy_beyond_the_memory_is_refused():
-    """A broadcast array takes four bytes but looks like 16 TiB."""
+    """A broadcast array takes four bytes but looks like 8 TiB."""
     huge = np.broadcast_to(np.float32(0), (2**40, 2))
     with pytest.raises(ph.MemoryLimitError, match="X: found"):
         ph.rips(huge)

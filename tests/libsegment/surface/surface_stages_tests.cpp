@@ -143,8 +143,7 @@ TEST(Normals, AreTheDirectionsOfLeastSpread) {
   std::mt19937 random(5);
   std::normal_distribution<double> gauss;
   for (int round = 0; round < 2000; ++round) {
-    // The shapes range from a ball to a strip of 10 mm by 10 um by 10 nm. Their positions are
-    // random, and some are far from the origin.
+    // Random points. Their shapes range from a ball to a strip of 10 mm by 10 um by 10 nm.
     const Eigen::Vector3d sizes(1, std::pow(10, -1.0 * (round % 4)),
                                 std::pow(10, -1.0 * (round % 7)));
     const Eigen::Matrix3d turn = Eigen::Quaterniond::UnitRandom().toRotationMatrix();
