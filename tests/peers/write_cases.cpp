@@ -143,7 +143,7 @@ void write_distance(std::ostream& out, Generator& random) {
     return bars;
   };
   const std::vector<Bar> first = diagram({}, random.integer(0, 40));
-  // In about half of the cases, most bars are in both diagrams.
+  // In about half of the cases, the second diagram contains all bars of the first.
   const std::vector<Bar> second =
       diagram(random.coin() ? first : std::vector<Bar>(), random.integer(0, 12));
   const auto pairs = [](const std::vector<Bar>& bars) {

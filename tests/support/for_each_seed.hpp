@@ -11,8 +11,9 @@
 
 namespace ph::test {
 
-/// The number of seeds to try. It is `count` times the environment variable PH_TEST_SEEDS, which
-/// may be 0.02 for a quick look or 250 for a long search, for example.
+/// The number of seeds to try. It is `count`, or at least 1 and `count` times the environment
+/// variable PH_TEST_SEEDS if it is set, for example to 0.02 for a quick look or to 250 for a long
+/// search.
 inline int seeds(int count) {
   const char* times = std::getenv("PH_TEST_SEEDS");
   return times ? std::max(1, static_cast<int>(count * std::atof(times))) : count;

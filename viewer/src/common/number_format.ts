@@ -26,7 +26,9 @@ export function counted(count: number, noun: string): string {
   return `${grouped(count)} ${noun}${count === 1 ? "" : "s"}`;
 }
 
-/// Four significant digits, or all digits before the point if there are more; ∞ and −∞ as symbols.
+/// `digits` significant digits, or all digits before the point if there are more. With an exponent
+/// below 1e-4, and from 1e6 on if more than `digits` digits are before the point. ∞ and −∞ are
+/// symbols.
 export function short(value: number, digits = 4): string {
   if (value === Infinity) return "∞";
   if (value === -Infinity) return "−∞";
@@ -43,8 +45,8 @@ export function short(value: number, digits = 4): string {
   return text.replace(/-/g, "−");
 }
 
-/// The number of significant digits, at least four, that distinguish values with this relative
-/// difference.
+/// The number of significant digits, from 4 to 15, that distinguish values of about this size with
+/// this difference.
 export function digitsFor(size: number, difference: number): number {
   const digits = Math.ceil(Math.log10(size) - Math.log10(difference)) + 2;
   return Number.isFinite(digits) ? Math.min(15, Math.max(4, digits)) : 4;

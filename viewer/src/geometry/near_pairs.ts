@@ -67,7 +67,7 @@ export interface SortedPairs {
 }
 
 /// The shortest pairs up to a distance of `limit`, at most `most` of them. A few guesses determine
-/// the radius of the search, so a few pairs fewer may be found.
+/// the radius of the search, so fewer pairs may be found, usually more than four fifths of `most`.
 export function shortestPairs(p: Float32Array, limit: number, most: number): SortedPairs {
   let best: number[] = [],
     reach = 0,

@@ -16,7 +16,7 @@ function levelsOf(tree: MergeTree): Float64Array {
 }
 
 /// The number of segments at each of some ascending cuts. A larger cut joins everything that a
-/// smaller one joins, so that one sweep is enough. O(merges log merges + leaves).
+/// smaller one joins, so that one sweep is enough. O(n log n) for n leaves, merges and cuts.
 export function segmentCounts(tree: MergeTree, cuts: number[]): number[] {
   const { levels, vertices, births, younger, elder, rule, minSize } = tree.arrays;
   const merges = numbered(tree.merges).sort((a, b) => levels[a]! - levels[b]!);

@@ -182,7 +182,7 @@ export class MergeTree {
   }
 
   /// The segments of a cut, as MergeTree::basins or MergeTree::components and extract_components
-  /// find them. O(leaves + merges).
+  /// find them. O(leaves + merges + segments log segments).
   cut(at: number): Cut {
     const a = this.arrays;
     const sets = new DisjointSets(this.leaves);
