@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
 """complexity.py PH_BARCODE PH_SEGMENT PH_DISTANCE PH_VECTORISE [full] [WORDS…]: runs attacks, which
 are inputs designed to make a run slow. Each attack has the sizes n, 2n and 4n. The CPU time must
-not grow faster than the complexity class of the attack allows. Attacks whose time may grow
-quadratically or faster must reach a memory limit, or --dry-run must predict their memory. `full`
-selects larger sizes, and WORDS the attacks whose names contain the words."""
+not grow faster than the complexity class of the attack allows. Some attacks whose time may grow
+quadratically or faster must also reach a memory limit, or --dry-run must predict their memory.
+`full` selects larger sizes, and WORDS the attacks whose names contain the words."""
 import dataclasses
 import gzip
 import math
@@ -87,8 +87,8 @@ def two_far(n):
 
 
 def tiny_cluster(n):
-    """Points so close to each other that the squares of their distances underflow, and one point
-    far away."""
+    """Points so close to each other that the third powers of their distances underflow, and one
+    point far away."""
     seed = random.Random(3)
     return [[seed.random() * 1e-150 for _ in range(3)] for _ in range(n)] + [(1., 1., 1.)]
 
@@ -204,8 +204,8 @@ ATTACKS = [
     Attack("components: all equal", points(equal), H0, 20_000),
     Attack("components: a line", points(line), H0, 10_000),
     Attack("components: points of a circle", points(circle), H0, 5000),
-    # After rounding, all distances from one cluster to the other are equal, and each of them is
-    # examined.
+    # After rounding, the distances from one cluster to the other have only 17 different values, and
+    # each distance is examined.
     Attack("components: two clusters that are far", points(two_far), H0, 3000, 2.2),
     Attack("components: a cluster of 1e-150", points(tiny_cluster), H0, 5000),
     Attack("components: distances that double", points(doubling), H0, 5000),

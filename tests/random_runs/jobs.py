@@ -326,8 +326,9 @@ def lower_star(rng):
 
 
 def alpha(rng):
-    """A job for an alpha or Delaunay-Čech complex. By the nerve theorem, its bars are the bars of
-    the Čech complex of all balls."""
+    """A job for an alpha or Delaunay-Čech complex. Its bars are the bars of the Čech complex of all
+    balls: of alpha complexes by the nerve theorem, of Delaunay-Čech complexes because the Čech
+    complex collapses to them (Bauer & Edelsbrunner 2017)."""
     dim = rng.choice([1, 2, 2, 3])
     style = rng.choice(["grid", "grid", "dyadic", "unit"])
     points = random_points(rng, 7, dim, style)

@@ -3,11 +3,12 @@
 
 Runs random jobs for a long time, and disturbs them: by signals at random moments, by limits on
 memory, heap and file size, and by stopping and continuing them. Whatever happens, the output is the
-complete output of the undisturbed run or the previous file, and the exit code tells which. Nothing
-else is left in the folder, unless SIGKILL ended the run. No run uses more memory than its limit
-plus 32 MiB. If the Python package can be imported, one process runs jobs for the same time, with
-limits, and its memory must not grow. PEAK is the program built from tests/faults/peak.c. Exits with
-1 at the first fault and prints the command; the files are kept in FOLDER."""
+complete output of the undisturbed run or the previous file. If the exit code is 0, it is complete.
+Nothing else is left in the folder, unless SIGKILL ended the run. No run with a limit on memory uses
+more than this limit plus 32 MiB. If the Python package can be imported, one process runs jobs for
+the same time, with limits, and its memory must not grow. PEAK is the program built from
+tests/faults/peak.c. Exits with 1 at the first fault and prints the command; the files are kept in
+FOLDER."""
 import argparse
 import collections
 import json
@@ -180,7 +181,7 @@ def in_one_process(rng, minutes):
         jobs += 1
         with open("/proc/self/statm", encoding="ascii") as statm:
             rooms.append(int(statm.read().split()[1]) * resource.getpagesize())
-    # Every kind of input occurs in the first third.
+    # Almost surely, both kinds of input occur in the first third.
     early, late = max(rooms[:len(rooms) // 3]), max(rooms[-len(rooms) // 3:])
     if late > early + 8 * MIB:
         raise Fault(f"in one process: found {late} bytes resident after {jobs} jobs, {early} before")

@@ -267,7 +267,7 @@ def in_parts(rng, program, job):
 
 
 def damaged(rng, content):
-    """The content with some bytes changed, left out or doubled."""
+    """The content with some bytes changed, left out, doubled or inserted."""
     content = bytearray(content)
     for _ in range(rng.choice([1, 1, 1, 3, 10])):
         at = rng.randrange(len(content) + 1)

@@ -53,8 +53,8 @@ class Picture:
 
     def open_hollows(self, voxels, birth):
         """The sets of voxels that may represent a void which is never filled: a set with a voxel
-        that never enters or, if only one axis is not periodic, everything towards one of the ends
-        of this axis."""
+        that never enters or, if only one axis of several voxels is not periodic, everything
+        towards one of the ends of this axis."""
         inside = self.hollow([min(voxels)], birth)
         if not all(map(self.enters, inside)):
             yield inside

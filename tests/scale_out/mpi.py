@@ -3,8 +3,8 @@
 of an MPI implementation.
 
 The ranks write the same bytes as one process. If a rank is killed at a random time, all other ranks
-end within seconds, with an exit code other than 0 and without an output; the same command with
---resume then makes the same bytes. A job that cannot be computed is reported and ends all ranks."""
+end within seconds, and the output is complete or absent; the same command with --resume then makes
+the same bytes. A job that cannot be computed is reported and ends all ranks."""
 import json
 import os
 import pathlib

@@ -3,8 +3,9 @@
 cluster of one machine, which this test starts and ends. Exit code 77, with the reason, if SLURM is
 not available.
 
-The scripts of the page run unchanged: a job array, and a job that waits for the array. Then one job
-of the array runs again. A second array, in which one job dies, reuses the existing parts.
+The scripts of the page run unchanged: a job array, and a job that waits for the array. Then one
+part is removed and another one is cut off, as if jobs had died. A second array computes these two
+parts and reuses the others.
 """
 import os
 import pathlib

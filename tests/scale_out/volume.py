@@ -4,7 +4,7 @@ import math
 
 
 def volume(path, extents=(24, 20, 16)):
-    """Writes a NumPy file of pseudo-random bytes."""
+    """Writes a NumPy file of pseudo-random bytes from 0 to 63."""
     state, values = 1, bytearray()
     for _ in range(math.prod(extents)):
         state = (state * 1103515245 + 12345) % (1 << 31)

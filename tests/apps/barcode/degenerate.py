@@ -48,7 +48,7 @@ class Degenerate(ProgramTest):
             self.assertEqual(bars["0,0,inf"], 1)
             lengths = sorted(float(bar.split(",")[2]) for bar in bars)[:-1]
             self.assertLess(lengths[-1], 0.05)
-        # The 4 * 10^10 pairs would not fit into the memory limit.
+        # The 4.5 * 10^10 pairs would not fit into the memory limit.
         self.expect(0, "points.txt", "--quiet", "--max-dim", "0", "--threshold", "0.01",
                     "--memory-limit", "256MiB", "-o", "bars.json")
         self.assertLess(json.loads(self.read("bars.json"))["peak_memory"], 288 * 2 ** 20)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Tests images larger than the memory limit. For any slab height, the bars stay the same, and the
-memory use stays within the limit."""
+"""Tests images that are computed in slabs, on request or because of the memory limit. For any slab
+height, the bars stay the same. The memory use stays within the limit plus 32 MiB."""
 import array
 import gzip
 import math

@@ -2,8 +2,9 @@
 """Memory runs out at any moment: the programs exit with 75 or manage without the memory, and no
 file is half written: program_allocation.py PH-BARCODE PH-SEGMENT FAILING-MALLOC.so [--all]
 
-There are some 17000 allocating calls, each tested by two runs. Without --all, only one call in
-EVERY fails: a different selection in each case and for each way to fail."""
+There are some 17000 allocating calls, each tested by two runs, except for most of those that were
+tested in another case. Without --all, only one call in EVERY fails: a different selection in each
+case and for each way to fail."""
 import gzip
 import os
 import subprocess
@@ -174,7 +175,7 @@ def main():
         folder.add("out.pcd.in", made["out.pcd"])  # a binary_compressed PCD file
         folder.add("out.png.in", made["out.png"])
         # Most allocations are made while the options are declared, and they are the same in every
-        # run of a program. The first case of each program tests all of them.
+        # run of a program. Only the first case of each program tests more than a few of them.
         of_program = {}
         reports = REPORTS if has_page(BARCODE) else []
         if not reports:

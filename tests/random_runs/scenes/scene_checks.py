@@ -9,8 +9,8 @@ import scene_files
 import scene_oracle as oracle
 from scene_oracle import Unsure
 
-# Voxels are adjacent if their corners touch. Their centroids are then up to about sqrt(3) edges
-# apart.
+# Voxels are adjacent if their centroids are at most a little more than sqrt(3) edges apart. The
+# centres of two voxels whose corners touch have this distance.
 SURELY_ADJACENT, SURELY_NOT = 1.73, 1.8
 
 

@@ -54,10 +54,10 @@ export function widestGap(lengths: ArrayLike<number>, alike = kFew, least = 1): 
 /// The bars of one dimension of a barcode, grouped by what is known about their lengths.
 interface Lengths {
   dim: number;
-  endless: number[]; // the bars of infinite length
+  endless: number[]; // bars of infinite length, except bars that are alive at the threshold
   reach: number; // the longest length; an infinite bar counts up to the last value
   isEndless: boolean; // true if a bar never ends; infinite bars may also have no beginning
-  finite: number[]; // finite bars, the longest first
+  finite: number[]; // long bars that are alive at the threshold, and finite bars; longest first
   lengths: number[]; // their lengths; for a bar that is alive at the threshold, its known part
   alive: number; // the first `alive` bars of `finite` are alive at the threshold
 }
