@@ -129,8 +129,8 @@ class Metrics(unittest.TestCase):
         self.assertEqual(metrics.supervoxel_scores(truth, halves + (truth == 1)), perfect)
         one = metrics.supervoxel_scores(truth, numpy.full(truth.shape, 7))
         self.assertEqual((one.supervoxels, one.boundary_recall), (1, 0))
-        # The only piece covers both objects. Only pixels of objects count. For each object, the piece
-        # therefore has as many pixels outside the object as inside.
+        # The only piece covers both objects. Only pixels of objects count. For each object, the
+        # piece therefore has as many pixels outside the object as inside.
         self.assertEqual(one.under_segmentation, 1)
         for step, recall in ((2, 1), (3, 0)):  # the number of columns by which the border moves
             moved = numpy.where(numpy.indices(truth.shape)[1] < 10 + step, 1, 2)

@@ -71,7 +71,8 @@ def test_distances(rng):
 
 
 def test_weights():
-    """A vertex is born at twice its weight, an edge at its length plus both weights."""
+    """A vertex is born at twice its weight, an edge at its length plus both weights, but not before
+    its vertices."""
     distances = np.array([[0, 4.0, 9], [4, 0, 2], [9, 2, 0]])
     weights = np.array([1.0, 2, 6])
     values = np.maximum(distances + weights[:, None] + weights,

@@ -107,7 +107,7 @@ def test_what_is_not_fitted(kind, clouds, dgms):
 
 
 def labelled_clouds(rng, count):
-    """Clouds with labels: circles and blobs."""
+    """Clouds with labels: circles and discs."""
     labels = np.arange(count) % 2
     angles = rng.uniform(0, 2 * np.pi, (count, 25))
     radii = np.where(labels[:, None], 1, rng.random((count, 25))**0.5)

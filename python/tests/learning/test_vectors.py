@@ -93,7 +93,8 @@ def test_image(dgm, power):
 
 
 def test_image_is_an_integral():
-    """Each pixel is the mean of the density over the pixel, times the pixel's area."""
+    """Each pixel is the mean of the density over the pixel, times the pixel's area and the weight
+    of the bar."""
     bar, width = np.array([[0.2, 1.1]]), 0.25
     (pixel,), = _functions.image(bar, width, (1, 1), (0.0, 0.5), (0.6, 1.2), 1)
     x, y = np.meshgrid((np.arange(400) + 0.5) / 800, 0.6 + (np.arange(400) + 0.5) * 0.6 / 400)

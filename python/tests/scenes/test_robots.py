@@ -37,8 +37,8 @@ def poses_of_boxes():
 
 
 def table_from_camera():
-    """The pose of a camera 0.75 m above the table and 0.45 m beside it, which looks at the middle
-    of the table."""
+    """The pose of a camera 0.75 m above the table and 0.46 m beside its middle, at which the camera
+    looks."""
     place = np.array([0.1, -0.45, 0.75])
     z = -place / np.linalg.norm(place)
     x = np.cross(z, [0, 0, 1])

@@ -41,8 +41,8 @@ int clock_gettime(clockid_t clock, struct timespec* now) {
     return -1;
   }
   const int status = (int)syscall(SYS_clock_gettime, clock, now);
-  /* A leap is at most two centuries, because std::chrono counts nanoseconds in 64 bits, which cover
-   * only 292 years. */
+  /* A clock is at most two centuries ahead, because std::chrono counts nanoseconds in 64 bits,
+   * which cover only 292 years. */
   if (strcmp(how, "back") == 0)
     now->tv_sec -= HOUR * (wrong + 1);
   else if (strcmp(how, "ahead") == 0)

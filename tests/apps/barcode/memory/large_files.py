@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""Tests memory-mapped inputs that are larger than the memory limit plus all allowed additional
-memory. The program keeps to the limit, whatever part of it reads the input. A run that needs more
-memory fails soon."""
+"""Tests large inputs. Most of them are memory-mapped, and larger than the memory limit plus all
+allowed additional memory. The program keeps to the limit, whatever part of it reads the input. A
+run that needs more memory fails soon."""
 import gzip
 import os
 import shutil

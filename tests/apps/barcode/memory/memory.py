@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""Memory runs out in more than a hundred ways: each run keeps to its limit and reports the problem.
+"""More than a hundred runs under a memory limit: each keeps to its limit and reports the problem.
 
-Each memory-hungry job runs under limits from 2 MiB to 128 MiB. It either succeeds, or ends with
-exit code 75 and one line that suggests a remedy. It never uses more than the limit plus 32 MiB.
+Each memory-hungry job runs under limits from 2 MiB to 128 MiB. It succeeds, or ends with exit code
+75 and one line that suggests a remedy, or is stopped after some seconds. It never uses more than
+the limit plus 32 MiB.
 """
 import os
 import random
@@ -34,8 +35,7 @@ def write_points(path, count, dim, digits=6):
 
 
 def write_image(path, extents):
-    """Writes an image in DIPHA's format piece by piece, because the memory of this process is
-    counted together with the memory of its children."""
+    """Writes an image in DIPHA's format piece by piece, to save memory."""
     count = 1
     for n in extents:
         count *= n
