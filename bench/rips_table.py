@@ -6,7 +6,7 @@ ENDED = {"time": "time limit", "memory": "memory limit"}
 
 
 def number(value):
-    """A number with three digits; further digits would only show noise."""
+    """A number with about three digits; further digits would only show noise."""
     if value >= 100:
         return f"{value:.0f}"
     return f"{value:.{1 if value >= 10 else 2 if value >= 1 else 3 if value >= 0.01 else 4}f}"

@@ -179,7 +179,7 @@ def container(random, w, d, h, floor):
 
 
 def bin_(random):
-    """Parts in a bin that stands on a table or on the floor."""
+    """Parts in a bin that stands on a table."""
     scene = Scene()
     add_table(scene, random)
     w, d, h = random.uniform(0.36, 0.56), random.uniform(0.28, 0.4), random.uniform(0.1, 0.2)

@@ -97,8 +97,8 @@ def read_pcd(path):
 @dataclass
 class Scene:
     """One frame. `points` are rows x, y, z, NaN where there is no depth; `truth` holds one label
-    per point: 0 no depth, 1 to 9 the table, from 10 on the parts of objects (label // 10 is the
-    object)."""
+    per point: 0 no depth, 1 to 9 the table and other surfaces, from 10 on the parts of objects
+    (label // 10 is the object)."""
 
     name: str
     points: numpy.ndarray

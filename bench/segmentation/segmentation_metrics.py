@@ -2,9 +2,9 @@
 """Measures how well labels agree with ground truth (overlap and boundary F, as in the evaluation of
 UOIS-Net, Xie et al.) and how well supervoxels respect objects.
 
-Labels of the ground truth: 0 is no depth (left out), 1 to 9 is the table, and labels from 10 on are
-parts of objects, where label // 10 is the object. Labels of a prediction: 0 is no segment, and
-every other label is a segment.
+Labels of the ground truth: 0 is no depth (left out), 1 to 9 are the table and other surfaces, and
+labels from 10 on are parts of objects, where label // 10 is the object. Labels of a prediction: 0
+is no segment, and every other label is a segment.
 """
 import math
 from dataclasses import asdict, dataclass
