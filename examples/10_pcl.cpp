@@ -38,6 +38,6 @@ int main(int argc, char** argv) {
   }
   // Computes a coarser cut of the same tree. The plane, the voxels and the normals are not computed
   // again.
-  segmentation.cut(30, clusters);
-  std::cout << clusters.size() << " segments when cut at 30\n";
+  segmentation.cut(200, clusters);
+  std::cout << clusters.size() << " segments when cut at 200\n";
 }

@@ -97,7 +97,7 @@ def test_band_is_drawn(rng):
     for wrong in ({"layer": 3}, {"grid": [0, 1]}):
         with pytest.raises(ph.UsageError, match=next(iter(wrong))):
             band.plot(**wrong)
-    with pytest.raises(ph.UsageError, match="expected rows"):
+    with pytest.raises(ph.UsageError, match="expected a number for each grid point"):
         ph.confidence_band(samples[..., None]).plot()
 
 

@@ -314,9 +314,9 @@ TEST(UserFiltrations, FacetsAreEnough) {
 }
 
 TEST(UserFiltrations, EnginesThatNeedMoreSaySo) {
-  expect_error(ErrorKind::usage, "engine cohomology cannot",
+  expect_error(ErrorKind::usage, "engine cohomology: cannot",
                [] { persistence(Square{}, {.engine = Engine::cohomology}); });
-  expect_error(ErrorKind::usage, "engine union-find cannot",
+  expect_error(ErrorKind::usage, "engine union-find: cannot",
                [] { persistence(Square{}, {.max_dim = 0, .engine = Engine::union_find}); });
 }
 
