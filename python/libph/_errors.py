@@ -60,7 +60,7 @@ class Timeout(Cancelled, TimeoutError):
 
 
 class NotBuiltIn(Error, NotImplementedError):
-    """A feature is not part of this build or of libph, or needs a GPU that is missing."""
+    """A feature is missing from this build, does not exist in libph, or needs a GPU that is missing."""
 
 
 class InternalError(Error, RuntimeError):

@@ -79,8 +79,9 @@ class KMeans {
     }
   };
 
-  /// Chooses the first centres by k-means++. The next centre is a random place, chosen with a
-  /// probability proportional to its squared distance from the nearest earlier centre.
+  /// Chooses the initial centres by k-means++. The first centre is the place of a random bar. Each
+  /// further centre is a random place. Its probability is proportional to the number of bars at the
+  /// place times the squared distance of the place from the nearest earlier centre.
   void seed_centres(std::size_t count, std::uint64_t seed) {
     Random random(seed);
     std::ranges::fill(squares_, 1);

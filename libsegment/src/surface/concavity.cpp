@@ -41,10 +41,11 @@ struct Moments {
 constexpr std::size_t kLanes = 8;
 using Lanes = std::array<double, kLanes>;
 
-/// The smallest eigenvalues of positive semi-definite matrices of trace one. The input is the sum
-/// of the principal minors of order two and the determinant of each matrix. To the left of its
-/// smallest root, the characteristic polynomial is concave. Newton's method therefore climbs from
+/// The smallest eigenvalues of positive semi-definite matrices of trace one. The characteristic
+/// polynomial is concave to the left of its smallest root. Newton's method therefore climbs from
 /// zero to that root and never passes it.
+/// @param minors for each matrix, the sum of its principal minors of order two. @param determinants
+/// the determinant of each matrix.
 Lanes smallest_eigenvalues(const Lanes& minors, const Lanes& determinants) {
   constexpr int most_steps = 20;  // a double root takes many steps, and is then exact enough
   constexpr double least_step = 1e-15;

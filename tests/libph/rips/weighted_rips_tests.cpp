@@ -101,7 +101,8 @@ ExplicitComplex listed(const DistanceMatrix& distances, const RipsOptions& optio
   return ExplicitComplex::from_simplices(list);
 }
 
-// The values agree with the definition, simplex by simplex, for every way to store the distances.
+// For every way to store the distances, the bars are the bars of a filtration that lists each
+// simplex with its value by the definition.
 TEST(WeightedRips, IsTheFiltrationThatItSays) {
   for_each_seed(20000, [](Generator& random, bool ties, std::int64_t field) {
     const int max_dim = random.integer(0, 2);

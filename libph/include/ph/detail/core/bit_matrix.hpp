@@ -47,8 +47,8 @@ std::size_t first_outside(const Word* a, const Word* b, std::size_t first, std::
 /// out = a & b. @return true if the result is not empty.
 bool intersect(const Word* a, const Word* b, Word* out, std::size_t words);
 
-/// Moves the bits that `from` and `mask` share from `from` to `moved`, beginning at word `first`.
-/// @return true if anything is left in `from`.
+/// In the words from `first` on, moves each bit of `from` that is also in `mask` to `moved`.
+/// @return true if a bit is left in these words of `from`.
 bool split(Word* from, const Word* mask, Word* moved, std::size_t first, std::size_t words);
 
 /// The first bit of `set`, other than `except`, that `row` lacks, or kNone.
