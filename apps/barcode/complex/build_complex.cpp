@@ -8,13 +8,17 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <string_view>
+#include <vector>
 
 #include "apps/barcode/arguments/scopes.hpp"
 #include "apps/barcode/complex/cubical_options.hpp"
+#include "apps/barcode/job/own_complex.hpp"
 #include "apps/common/values/numbers.hpp"
 #include "ph/detail/complex/listed_cubes.hpp"
 #include "ph/detail/core/files.hpp"
 #include "ph/detail/report/shown_tree.hpp"
+#include "ph/error.hpp"
 #include "ph/explicit.hpp"
 #include "ph/voxel_image.hpp"
 
@@ -101,11 +105,16 @@ class Builder {
     const ComplexKind kind = is_free ? *kinds.begin() : job_.question.complex;
     if (std::ranges::find(kinds, kind) == kinds.end()) {
       const auto name = [](ComplexKind k) { return complex_names()[static_cast<std::size_t>(k)]; };
+      std::vector<std::string_view> possible;
+      for (const ComplexKind k : kinds)
+        if (k != ComplexKind::own) possible.push_back(name(k));
+      if (std::ranges::find(kinds, ComplexKind::own) != kinds.end())
+        for (const OwnComplex& own : own_complexes()) possible.emplace_back(own.name);
       throw Error(
           ErrorKind::usage,
-          fmt::format("--complex: found {0}, expected a complex of {2}, such as {1}{3}",
+          fmt::format("--complex: found {}, expected {} for {}{}",
                       job_.question.own_complex ? job_.question.own_complex->name : name(kind),
-                      name(*kinds.begin()), data,
+                      ph::alternatives(fmt::format("{}", fmt::join(possible, "|"))), data,
                       kind == ComplexKind::lower_star
                           ? "; --values gives the values of the vertices"
                           : ""));

@@ -31,8 +31,8 @@ std::vector<std::string> get_texts(ByteReader& from, std::string_view what) {
 void InputsPart::join(InputsPart other) {
   if (other.whole_ != whole_)
     throw Error(ErrorKind::bad_data,
-                "parts of inputs: found other inputs, options or numbers of parts, expected parts "
-                "of one batch");
+                "parts of inputs: found parts that differ in inputs, options or number of parts, "
+                "expected parts of one batch");
   for (const int number : other.numbers_)
     if (std::ranges::binary_search(numbers_, number))  // mutant: part-twice
       throw Error(ErrorKind::bad_data, fmt::format("parts of inputs: found part {} of {} twice",

@@ -26,8 +26,8 @@ void check(std::span<const double> functions, std::size_t samples, const BandOpt
         fmt::format("multiplier_bootstrap: found {} samples, expected at least 2", samples));
   if (functions.size() % samples != 0)
     throw Error(ErrorKind::usage,
-                fmt::format("multiplier_bootstrap: found {} numbers, expected rows of equal "
-                            "length for {} samples",
+                fmt::format("multiplier_bootstrap: found {0} numbers for {1} samples, expected a "
+                            "multiple of {1}: one row of equal length per sample",
                             functions.size(), samples));
   for (const double number : functions)
     if (!(std::abs(number) <= kLargest))

@@ -121,7 +121,7 @@ class Parts(PartsTest):
             "another image": ([p[0], self.parts(other, 4, prefix="o")[1], *p[2:]], "o2.ph"),
             "other options": ([p[0], self.parts(image, 4, "--superlevel", prefix="s")[1], *p[2:]],
                               "options"),
-            "other parts": ([p[0], *self.parts(image, 2, prefix="t")], "of other extents|options"),
+            "other parts": ([p[0], *self.parts(image, 2, prefix="t")], "differ in extents"),
             "no part": ([*p, "image.npy"], "begin with \"ph part\""),
         }
         for what, (names, word) in refused.items():
@@ -250,7 +250,7 @@ class Clouds(PartsTest):
         p = self.parts(cloud, 3)
         o = self.parts(other, 3, prefix="o")
         for names, word in ((p[:2], "missing: part 3"), ([p[0], p[0], p[2]], "twice"),
-                            ([p[0], o[1], p[2]], "other points or options"),
+                            ([p[0], o[1], p[2]], "differ in points"),
                             ([*p, "cloud.csv"], 'begin with "ph part"')):
             self.refused(names, word)
         for options, word in ((("--complex", "rips"), "--max-dim 0"),

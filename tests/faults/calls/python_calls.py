@@ -324,8 +324,8 @@ CALLS = [(room, *row) for room, rows in {
         ("ph.join_parts([part, part])", "DataError", "found part 1 after part 1"),
         ("ph.join_parts([part, cloud])", "DataError", "CloudPart together with ImagePart"),
         ("ph.join_parts([part, ph.image_part(IMAGE * 2, 1, 2)])", "DataError", "layers that do not match"),
-        ("ph.join_parts([part, ph.image_part(IMAGE, 1, 2, superlevel=True)])", "DataError", "other extents"),
-        ("ph.join_parts([cloud, ph.cloud_part(POINTS + 1, 1, 2)]).barcode()", "DataError", "other points"),
+        ("ph.join_parts([part, ph.image_part(IMAGE, 1, 2, superlevel=True)])", "DataError", "differ in extents"),
+        ("ph.join_parts([cloud, ph.cloud_part(POINTS + 1, 1, 2)]).barcode()", "DataError", "differ in points"),
         ("ph.join_parts([part, other]).barcode() == image_bars", "=", "True"),
     ],
     "files": [

@@ -166,9 +166,9 @@ TEST(ImagePart, RefusesWhatDoesNotBelongTogether) {
   ImagePart first(image, 0, 3);
   refused(first, ImagePart(image, 2, 3), "found part 3 after part 1");
   refused(first, ImagePart(image, 0, 3), "found part 1 after part 1");
-  refused(first, ImagePart(image, 1, 4), "other extents, types, options or numbers of parts");
+  refused(first, ImagePart(image, 1, 4), "differ in extents, type, options or number of parts");
   refused(first, ImagePart(image, 1, 3, {.max_dim = 0}),
-          "other extents, types, options or numbers of parts");
+          "differ in extents, type, options or number of parts");
   ImagePart of_image(image, 0, 3);
   refused(of_image, ImagePart(other, 1, 3), "layers that do not match");
   EXPECT_EQ(of_image.bytes(), ImagePart(image, 0, 3).bytes());

@@ -267,11 +267,12 @@ TEST(CloudPart, RefusesWhatDoesNotBelongTogether) {
     expect_error(ErrorKind::bad_data, why, [&] { first.join(std::move(part)); });
     EXPECT_EQ(first.bytes(), bytes);
   };
-  refused(CloudPart(other, 1, 3), "other points, options or numbers of parts");
-  refused(CloudPart(points, 1, 4), "other points, options or numbers of parts");
-  refused(CloudPart(points, 1, 3, {.threshold = 1}), "other points, options or numbers of parts");
-  refused(CloudPart(points, 1, 3, {.blocks = 2}), "other points, options or numbers of parts");
-  refused(CloudPart(points, 1, 3, {.sample = 7}), "other points, options or numbers of parts");
+  refused(CloudPart(other, 1, 3), "differ in points, options or number of parts");
+  refused(CloudPart(points, 1, 4), "differ in points, options or number of parts");
+  refused(CloudPart(points, 1, 3, {.threshold = 1}),
+          "differ in points, options or number of parts");
+  refused(CloudPart(points, 1, 3, {.blocks = 2}), "differ in points, options or number of parts");
+  refused(CloudPart(points, 1, 3, {.sample = 7}), "differ in points, options or number of parts");
   refused(CloudPart(points, 0, 3), "found part 1 twice");
   first.join(CloudPart(points, 2, 3));
   EXPECT_EQ(first.missing(), std::vector<int>{1});

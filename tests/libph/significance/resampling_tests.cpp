@@ -164,7 +164,8 @@ TEST(MultiplierBootstrap, SeedsThreadsAndErrors) {
   EXPECT_EQ(multiplier_bootstrap(std::vector<double>(6, 2.5), 3).half_width, 0);
   EXPECT_TRUE(multiplier_bootstrap({}, 3).mean.empty());
   expect_error(ErrorKind::usage, "found 1 samples", [&] { multiplier_bootstrap(functions, 1); });
-  expect_error(ErrorKind::usage, "200 numbers", [&] { multiplier_bootstrap(functions, 7); });
+  expect_error(ErrorKind::usage, "found 200 numbers for 7 samples, expected a multiple of 7",
+               [&] { multiplier_bootstrap(functions, 7); });
   expect_error(ErrorKind::usage, "repetitions",
                [&] { multiplier_bootstrap(functions, 10, {.repetitions = 0}); });
   expect_error(ErrorKind::usage, "alpha",

@@ -101,8 +101,8 @@ class LoopMessage {
     if (header.image != image)
       throw Error(
           ErrorKind::bad_data,
-          "loops of another part: found other extents, types, options, fields or numbers of "
-          "parts, expected loops of the same image and field");
+          "loops of another part: found extents, type, options, field or number of parts "
+          "that differ from those of this part, expected loops of the same image and field");
     header.from = from_.get<std::int32_t>("sender");
     if (header.from < 0 || header.from >= parts || header.from == to) from_.refuse("sender");
     header.to = from_.get<std::int32_t>("receiver");

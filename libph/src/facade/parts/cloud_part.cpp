@@ -144,8 +144,8 @@ void CloudPart::join(CloudPart other, const RunContext& context) {
   if (other.state_->whole != state_->whole)
     throw Error(
         ErrorKind::bad_data,
-        "parts of clouds: found other points, options or numbers of parts, expected parts of "
-        "one cloud");
+        "parts of clouds: found parts that differ in points, options or number of parts, expected "
+        "parts of one cloud");
   const std::vector<int>& others = other.state_->present;
   std::vector<int> present, twice;
   std::ranges::set_intersection(state_->present, others, std::back_inserter(twice));

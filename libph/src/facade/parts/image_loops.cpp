@@ -65,9 +65,10 @@ int ImageLoops::part() const { return state_->part; }
 void ImageLoops::begin(std::span<const std::byte> told) {
   ByteReader from(told, "data for the loops of a part");
   if (from.get<std::uint64_t>("image") != state_->whole.hash())
-    throw Error(ErrorKind::bad_data,
-                "data for the loops of a part: found other extents, types, options or numbers of "
-                "parts, expected data of the same image");
+    throw Error(
+        ErrorKind::bad_data,
+        "data for the loops of a part: found extents, type, options or number of parts that "
+        "differ from those of the part, expected data for the same image");
   if (from.get<std::int32_t>("part") != state_->part) from.refuse("number of a part");
   FreeCells free(&state_->context.memory);
   const auto get = [&](std::pmr::vector<GridCell>& cells, std::size_t in_star) {

@@ -223,8 +223,8 @@ void ImagePart::join(ImagePart next, const RunContext& context) {
   if (next.state_->whole != state_->whole)
     throw Error(
         ErrorKind::bad_data,
-        "parts of images: found other extents, types, options or numbers of parts, expected parts "
-        "of one image");
+        "parts of images: found parts that differ in extents, type, options or number of parts, "
+        "expected parts of one image");
   if (next.first() != last() + 1)
     throw Error(ErrorKind::bad_data,
                 fmt::format("parts of an image: found part {} after part {}, expected part {}",

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string_view>
+#include <vector>
 
 #include "libph/src/io/bytes/yaml_words.hpp"
 #include "ph/detail/core/floating.hpp"
@@ -261,10 +263,13 @@ Camera read_json(const Input& input) {
   read_members(json, camera, has_matrix);
   json.expect_end();
   if (!has_matrix || camera.width == 0 || camera.height == 0) {
+    std::vector<std::string_view> missing;
+    if (!has_matrix) missing.emplace_back("no intrinsic_matrix");
+    if (camera.width == 0) missing.emplace_back("no width");
+    if (camera.height == 0) missing.emplace_back("no height");
     input.fail({"not an Open3D camera",
-                fmt::format("{} intrinsic_matrix, width {}, height {}", has_matrix ? "an" : "no",
-                            camera.width, camera.height),
-                "all three",
+                fmt::format("{}", fmt::join(missing, " and ")),
+                "intrinsic_matrix, width and height",
                 {}});
   }
   return camera;
