@@ -63,7 +63,7 @@ bool is_there(const std::string& path, const InputsPart::Whole& whole, int part,
   const auto kept =
       kept_part(path, own, session, &InputsPart::of_bytes, [&](const InputsPart& there) {
         if (there.whole() != whole || !std::ranges::equal(there.numbers(), std::array{part}))
-          return "is a different part, or belongs to different inputs or options";
+          return "is not the requested part for these inputs and options";
         const bool is_complete = std::ranges::all_of(
             there.results(), [](const auto& result) { return result.failure.empty(); });
         return is_complete ? "" : "has inputs that failed";

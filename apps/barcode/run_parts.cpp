@@ -56,7 +56,7 @@ int run_join(const Job& job, BarcodeFormat format, app::Session& session) {
       if (kind.empty()) kind = found;
       if (found != kind)
         throw Error(ErrorKind::bad_data,
-                    fmt::format("part: found kind '{}', expected kind '{}' as in the other files",
+                    fmt::format("part: found kind '{}', expected kind '{}' as in the first file",
                                 found, kind));
     } catch (const Error& error) {
       throw Error(error.kind(), fmt::format("{}: {}", path, error.marked()));

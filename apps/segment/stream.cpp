@@ -48,8 +48,8 @@ class Stream {
         known_(inputs_of(arguments)) {
     if (!arguments.files.any()) {
       throw Error(ErrorKind::usage,
-                  "several inputs: expected a folder for their results, such as --labels FOLDER/, "
-                  "or --json FILE");
+                  "several inputs: found no output for their results, expected one, such as "
+                  "--labels FOLDER/ or --json FILE");
     }
     source_.add_known(known_);
     if (!json().path.empty()) {

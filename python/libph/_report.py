@@ -156,7 +156,7 @@ def report_of_bars(bars: Barcode, X: Any, title: str, options: dict[str, Any]) -
     if isinstance(X, (Mesh, Simplices, Boundary)):
         kind = None
     elif kind not in _KNOWN:
-        raise UsageError(f"X: found other data for bars of complex {kind!r}, expected a Mesh, "
+        raise UsageError(f"X: found {type(X).__name__} for bars of complex {kind!r}, expected a Mesh, "
                          "Simplices or a Boundary, as ph.read returns them")
     for name, unknown in (("metric", "function"), ("weights", "given")):
         if given.get(name) == unknown and name not in options:

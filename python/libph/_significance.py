@@ -302,7 +302,7 @@ def permutation_test(distances: ArrayLike, groups: Any, *, shuffles: int = 1000,
     sizes = np.bincount(numbers, minlength=len(names))
     if len(names) < 2 or sizes.min() < 2:
         raise UsageError(f"groups: found {len(names)} groups of sizes {sizes.tolist()}, expected at least "
-                         "two groups of at least two")
+                         "two groups, each of at least two barcodes")
     p, loss = _run.run(
         _core.permutation_test, matrix, numbers.astype(np.int64),
         _options.whole("shuffles", shuffles, 1), _options.positive("power", power),

@@ -351,7 +351,7 @@ def test_entropy():
 
 
 def test_names_that_promise_packed_files(tmp_path):
-    with pytest.raises(ph.UsageError, match="found .gz, expected a name without it"):
+    with pytest.raises(ph.UsageError, match="found .gz, expected a name without this ending"):
         ph.rips([[0], [1]]).save(tmp_path / "bars.json.gz", format="json")
     assert not list(tmp_path.iterdir())
 

@@ -154,6 +154,6 @@ MUTANTS = [
         ("device: the CPU steps in", "device-gpu", ""),
         ("device: births are left out", "device-births", 'else if (false) found = "births of vertices";'),
         ("device: any distance is taken for the Euclidean one", "device-distance",
-         'else if (false) found = "a different distance";'),
+         'else if (false) found = "a distance that is not Euclidean";'),
     ]),
 ]

@@ -182,7 +182,8 @@ bool take_word(Job& job, app::PlotArguments& plots) {
     job.results.output_format = BarcodeFormat::none;
   if (plots.paths.empty() && job.places.report.empty() &&
       job.results.output_format == BarcodeFormat::none)
-    throw Error(ErrorKind::usage, "plot: expected an output, such as -o FILE.svg or -o FILE.png");
+    throw Error(ErrorKind::usage,
+                "plot: found no output, expected one, such as -o FILE.svg or -o FILE.png");
   return is_picture;
 }
 
@@ -211,10 +212,10 @@ void check_together(Job& job) {
                        job.question.options.min_dim, *job.question.options.max_dim));
   const Engine engine = job.question.options.engine;
   if (job.question.options.representatives != Representatives::none && engine == Engine::standard)
-    reject(
-        fmt::format("--engine: found {}, which gives no representatives; expected auto, twist, "
-                    "cohomology or another engine that gives them",
-                    engine.name()));
+    reject(fmt::format(
+        "--engine: found {}, which gives no representatives, expected auto or an engine "
+        "that gives them, such as twist",
+        engine.name()));
   const bool has_cycles = job.question.options.representatives == Representatives::cycles ||
                           job.question.options.representatives == Representatives::voxels;
   if (job.results.loops && !has_cycles)

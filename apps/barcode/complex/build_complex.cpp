@@ -187,8 +187,10 @@ class Builder {
                   fmt::format("--dtm: found {}, expected at most the number of points, {}",
                               *options.dtm_neighbours, size));
     if (!std::same_as<Data, Points> && wanted.engine == Engine::beta_skeleton)
-      throw Error(ErrorKind::usage,
-                  fmt::format("--engine: found {}, which needs points", wanted.engine.name()));
+      throw Error(
+          ErrorKind::usage,
+          fmt::format("--engine: found {}, which needs points, expected an engine for distances",
+                      wanted.engine.name()));
     options.births = values_by_point(job_.question.vertex_weights, size, 0, "a finite number >= 0");
     return in_name_of(name_, [&] {
       BuiltComplex built{rips_of(data, std::move(options)), "rips", std::nullopt, empty,

@@ -8,6 +8,7 @@
 
 #include "apps/barcode/parts/part_files.hpp"
 #include "ph/detail/core/files.hpp"
+#include "ph/detail/metric/metric.hpp"
 
 namespace ph::barcode {
 
@@ -20,8 +21,8 @@ CloudInput read_cloud_input(const std::string& input, const Job& job, app::Sessi
             "{} with --complex rips: expected --max-dim 0, because only components are computed",
             why));
   if (job.question.rips.distance != PointDistance::euclidean)
-    throw Error(ErrorKind::usage,
-                fmt::format("--metric: found another metric, expected euclidean with {}", why));
+    throw Error(ErrorKind::usage, fmt::format("--metric: found {}, expected euclidean with {}",
+                                              name_of(job.question.rips.distance), why));
   NamedData data =
       read_input(Input::open(files::path_of(input), &session.context()), job, session.context());
   const std::string& description = data.read.description;
@@ -45,7 +46,9 @@ std::optional<CloudPart> kept_cloud_part(const std::string& path, const std::str
         return CloudPart::of_bytes(bytes, session.context());
       },
       [&](const CloudPart& kept) {
-        return kept.is_of(cloud.points, part, parts, cloud.options) ? "" : "is a different part";
+        return kept.is_of(cloud.points, part, parts, cloud.options)
+                   ? ""
+                   : "is not the requested part for this input and these options";
       });
 }
 

@@ -81,7 +81,9 @@ std::optional<ImagePart> kept_image_part(const std::string& path, const std::str
         return ImagePart::of_bytes(bytes, session.context());
       },
       [&](const ImagePart& kept) {
-        return kept.is_of(image.image, part, parts, image.options) ? "" : "is a different part";
+        return kept.is_of(image.image, part, parts, image.options)
+                   ? ""
+                   : "is not the requested part for this input and these options";
       });
 }
 

@@ -40,8 +40,8 @@ std::optional<std::vector<std::byte>> kept_part_file(const std::string& path,
 /// The part in a file, for --resume. If the file is damaged or contains another part, a note
 /// reports this, and the part must be computed again.
 /// @param of_bytes makes a part from bytes; throws Error (bad_data) on other bytes.
-/// @param why_not returns why a part is not the requested part, for example "is a different part".
-/// The text is empty if it is the requested part.
+/// @param why_not returns what is wrong with a part that is not the requested part, for example
+/// "has inputs that failed". The text is empty if it is the requested part.
 template <class OfBytes, class WhyNot>
 std::optional<std::invoke_result_t<OfBytes, std::span<const std::byte>>> kept_part(
     const std::string& path, std::span<const std::string> inputs, app::Session& session,

@@ -7,6 +7,7 @@
 
 #include "apps/barcode/complex/cubical_options.hpp"
 #include "apps/barcode/complex/read_input.hpp"
+#include "apps/barcode/job/own_complex.hpp"
 #include "apps/common/values/numbers.hpp"
 #include "ph/detail/core/files.hpp"
 
@@ -19,9 +20,11 @@ PartInput read_part_input(const std::string& input, bool keeps_cells, const Job&
       job.question.complex != ComplexKind::cubical)
     throw Error(
         ErrorKind::usage,
-        fmt::format(
-            "--complex: found another complex, expected cubical, or rips with --max-dim 0, for {}",
-            why));
+        fmt::format("--complex: found {}, expected cubical, or rips with --max-dim 0, for {}",
+                    job.question.own_complex
+                        ? job.question.own_complex->name
+                        : complex_names()[static_cast<std::size_t>(job.question.complex)],
+                    why));
   const Input opened =
       Input::open(files::path_of(input), &session.context(), Input::Excess::is_expected);
   if (job.reading.format == Format::automatic && is_barcode(opened))

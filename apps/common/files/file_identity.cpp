@@ -83,7 +83,8 @@ void InputFiles::require_other(const Written& output) const {
                     out = named(output.path, "standard output");
   throw Error(
       ErrorKind::usage,
-      fmt::format("{}: {} is {}, expected another file; --force writes over it", output.option, out,
+      fmt::format("{}: {} is {}, expected a file that is not an input; --force writes over it",
+                  output.option, out,
                   in == out ? std::string("an input") : fmt::format("the input {}", in)));
 }
 

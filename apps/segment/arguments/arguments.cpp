@@ -100,8 +100,9 @@ void require_inputs(const Arguments& a) {
   for (const std::string& input : a.inputs) {
     if (input.empty()) reject("INPUT: found '', expected a path");
     if (must_be_image(input) && !a.image.has_camera())
-      reject(fmt::format("{}: expected --camera or --intrinsics FX,FY,CX,CY with a depth image",
-                         printable(input)));
+      reject(fmt::format(
+          "{}: found a depth image without a camera, expected --camera or --intrinsics FX,FY,CX,CY",
+          printable(input)));
   }
   if (std::ranges::count(a.inputs, "-") + (a.frames_from == "-") > 1)
     reject("INPUT: standard input can be read once only");
@@ -109,7 +110,7 @@ void require_inputs(const Arguments& a) {
     reject(
         "--depth: found an output for several frames, expected a file for one; give several as "
         "INPUT, as a folder, or with --frames-from");
-  if (a.signatures && a.files.json.empty()) reject("--signatures: expected --json with it");
+  if (a.signatures && a.files.json.empty()) reject("--signatures: needs --json");
   if (several && a.explain)
     reject("--explain: found several inputs or an output for several, expected one input");
   if (!several && a.stable_labels) reject("--stable-labels: expected several frames");
@@ -119,7 +120,8 @@ void require_consistent(const Arguments& a) {
   require_inputs(a);
   const bool depth = !a.image.depth.empty();
   if (depth && !a.image.has_camera()) {
-    throw Error(ErrorKind::usage, "--depth: expected --camera or --intrinsics FX,FY,CX,CY with it");
+    throw Error(ErrorKind::usage,
+                "--depth: found no camera, expected --camera or --intrinsics FX,FY,CX,CY");
   }
   if (a.explain && a.files.to_standard_output()) {
     const std::vector<app::Written> outputs = a.files.written();
@@ -129,7 +131,7 @@ void require_consistent(const Arguments& a) {
                     std::ranges::find(outputs, "-", &app::Written::path)->option));
   }
   if (!depth && !a.image.colour.empty()) {
-    throw Error(ErrorKind::usage, "--color: expected --depth with it");
+    throw Error(ErrorKind::usage, "--color: needs --depth");
   }
   if (!depth && !a.is_stream() && app::is_folder(a.inputs.front()))
     throw Error(

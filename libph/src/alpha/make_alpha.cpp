@@ -104,12 +104,13 @@ Alpha::Alpha(PointsView points, const AlphaOptions& options, const RunContext& c
                 "squared radii may be negative");
   if (!options.weights.empty() && kind_ != AlphaOptions::Value::alpha)
     throw Error(ErrorKind::usage,
-                "alpha complex with weights: found values other than alpha values, expected alpha "
-                "values");
+                fmt::format("alpha complex with weights: found {} values, expected alpha values",
+                            name_of(kind_)));
   if (alpha::closes_up(options.period) && kind_ != AlphaOptions::Value::alpha)
-    throw Error(ErrorKind::usage,
-                "alpha complex of a periodic space: found values other than alpha values, "
-                "expected alpha values");
+    throw Error(
+        ErrorKind::usage,
+        fmt::format("alpha complex of a periodic space: found {} values, expected alpha values",
+                    name_of(kind_)));
   cells_ = std::make_shared<const alpha::AlphaCells>(
       alpha::alpha_cells(points, options.weights, options.period, context));
   if (unit_ == AlphaOptions::Unit::squared) check_squares(cells_->sites.exponent);

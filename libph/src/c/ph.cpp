@@ -311,7 +311,9 @@ ph_status ph_rips_distances(const double* lower, int64_t size, const ph_options*
                             ph_barcode** out) {
   return barcode_of(options, out, [&](const ph_options& o, const RunContext& context) {
     constexpr std::int64_t most = std::int64_t{1} << 31;
-    require(size >= 0 && size <= most, "distances: found a size that is negative or above 2^31");
+    if (size < 0 || size > most)
+      throw Error(ErrorKind::usage,
+                  fmt::format("distances: found {} points, expected 0 to 2^31", size));
     require(lower != nullptr || size < 2, "lower: found NULL");
     const std::size_t count =
         size < 2 ? 0 : static_cast<std::size_t>(size) * static_cast<std::size_t>(size - 1) / 2;

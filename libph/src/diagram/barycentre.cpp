@@ -36,8 +36,9 @@ void check(Diagrams diagrams, const BarycentreOptions& options) {
       throw Error(
           ErrorKind::bad_data,
           fmt::format(
-              "barycentre: found different numbers of infinite bars in diagram {} and "
-              "in diagram 0, expected the same number of each kind; leave out infinite bars",
+              "barycentre: found numbers of infinite bars in diagram {} that differ from "
+              "diagram 0, expected equal numbers of bars [-inf, d), of bars [b, inf) and of bars "
+              "[-inf, inf); leave out infinite bars",
               i));
 }
 

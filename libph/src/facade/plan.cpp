@@ -14,7 +14,9 @@ namespace {
 /// The form of a Rips filtration. @throws Error (usage) if the plan is for another complex.
 const RipsGraph& graph_of(const Rips& rips, const RunPlan& plan, const RunContext& context) {
   if (!plan.form)
-    throw Error(ErrorKind::usage, "run: found a plan for a complex other than a Rips filtration");
+    throw Error(ErrorKind::usage,
+                "run: found a plan for a complex other than a Rips filtration, expected a plan for "
+                "this Rips filtration");
   return rips.graph(*plan.form, context);
 }
 

@@ -206,10 +206,10 @@ struct Settled {
     goes_by_edges = choice.engine && choice.engine->goes_by_edges && max_dim <= kHighestByEdges;
     if (!goes_by_edges) choice.form = edges_for(rips, options);
     if (rips.options().device == Device::gpu && choice.form != RipsForm::forest)
-      throw Error(
-          ErrorKind::usage,
-          "device gpu: found another task, expected components (H0) of points with Euclidean "
-          "distances; set max_dim to 0 and choose neither an approximation nor an engine");
+      throw Error(ErrorKind::usage,
+                  "device gpu: found a task for the CPU only, expected components (H0) of points "
+                  "with Euclidean distances; set max_dim to 0 and choose neither an approximation "
+                  "nor an engine");
   }
   Options options;             // the options include the highest dimension
   FormChoice choice;           // no engine if no engine can do the task for this number of vertices

@@ -101,7 +101,7 @@ class Tightener {
   }
   Key key_of(std::uint32_t u, std::uint32_t v) const {
     if (const auto key = graph_.key_of(u, v)) return *key;
-    throw Error(ErrorKind::usage, "loops: found a cycle of a different complex");
+    throw Error(ErrorKind::usage, "loops: found a cycle with an edge that is not in this complex");
   }
   Key key_of(const InputCell& edge) const {
     return key_of(graph_.vertex_of(edge.numbers[0]), graph_.vertex_of(edge.numbers[1]));

@@ -170,7 +170,7 @@ void check_device(const RipsData& data, const RipsOptions& options) {
   else if (!std::holds_alternative<HeldPoints>(data))
     found = "distances";
   else if (options.distance != PointDistance::euclidean)  // mutant: device-distance
-    found = "a different distance";
+    found = "a distance that is not Euclidean";
   else if (!options.births.empty() || options.dtm_neighbours)  // mutant: device-births
     found = "births of vertices";
   if (!found.empty())

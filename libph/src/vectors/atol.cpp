@@ -193,15 +193,20 @@ std::vector<double> widths_of(const std::vector<Place>& centres, const std::vect
 }
 
 void check(const Atol& fitted) {
-  bool is_right = !fitted.centres.empty() && fitted.centres.size() == fitted.widths.size();
+  if (fitted.centres.empty() || fitted.centres.size() != fitted.widths.size())
+    throw Error(ErrorKind::usage,
+                fmt::format("atol_vector: found {} centres and {} widths, expected at least one "
+                            "centre and one width for each",
+                            fitted.centres.size(), fitted.widths.size()));
+  bool is_right = true;
   for (const Place& centre : fitted.centres)
     for (const double x : centre) is_right = is_right && std::abs(x) <= kLargest;
   for (const double width : fitted.widths) is_right = is_right && width > 0 && width < kInfinity;
   if (!is_right)
     throw Error(ErrorKind::usage,
-                fmt::format("atol_vector: found {} centres and {} widths, expected equal numbers "
-                            "of each, at least 1, all finite, widths > 0",
-                            fitted.centres.size(), fitted.widths.size()));
+                fmt::format("atol_vector: found a centre or a width out of range, expected centres "
+                            "of at most {} in absolute value and finite widths above 0",
+                            kLargest));
 }
 
 }  // namespace
@@ -219,7 +224,7 @@ Atol fit_atol(std::span<const std::span<const Bar>> diagrams, const AtolOptions&
   if (heaps.size() < options.centres)
     throw Error(
         ErrorKind::bad_data,
-        fmt::format("{}: different bars: found {}, expected at least {}, the number of centres",
+        fmt::format("{}: distinct bars: found {}, expected at least {}, the number of centres",
                     mark_place("fit_atol"), heaps.size(), options.centres));
   // The unit is chosen so that the largest number is between 1/2 and 1. In a larger unit, the
   // squares of small numbers could be 0.

@@ -39,8 +39,8 @@ void check(const Grid& grid, std::string_view function) {
       (grid.lo < grid.hi || (grid.points == 1 && grid.lo == grid.hi)))
     return;
   throw Error(ErrorKind::usage,
-              fmt::format("{}: grid: found {} points from {} to {}, expected at least 1, from a "
-                          "number to a larger one, both at most {} in absolute value",
+              fmt::format("{}: grid: found {} points from {} to {}, expected at least 1 point and "
+                          "ascending ends of at most {} in absolute value",
                           mark_place(function), grid.points, grid.lo, grid.hi, kLargest));
 }
 

@@ -32,12 +32,13 @@ void validate(const CloudView& cloud, const SegmentOptions& o) {
         fmt::format("found a stride of {}, expected at least 3 floats per point", cloud.stride));
   const std::size_t count = cloud.xyz.size();
   if (count != 0 && (count < 3 || (count - 3) % cloud.stride != 0)) {
-    throw Error(ErrorKind::bad_data,
-                cloud.stride == 3
-                    ? fmt::format("found {} coordinates, expected three per point", count)
-                    : fmt::format("found {} floats, expected {} from point to point and 3 of the "
-                                  "last",
-                                  count, cloud.stride));
+    throw Error(
+        ErrorKind::bad_data,
+        cloud.stride == 3
+            ? fmt::format("found {} coordinates, expected a multiple of 3: three per point", count)
+            : fmt::format(
+                  "found {} floats, expected 3 for the last point and {} for each point before it",
+                  count, cloud.stride));
   }
   const auto points = static_cast<Index>(cloud.size());
   // The check divides, because a product might overflow.

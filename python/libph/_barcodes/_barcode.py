@@ -121,7 +121,8 @@ class Barcode(Cells, Summaries, Sequence[Bar]):
                             "slice; dgm(1) is the array of the bars of H1, filter() chooses bars"
                             ) from None
         if not -len(self) <= place < len(self):
-            raise IndexError(f"bars[{place}]: found {len(self)} bars")
+            known = f", expected an index from {-len(self)} to {len(self) - 1}" if len(self) else ""
+            raise IndexError(f"bars[{place}]: found {len(self)} bars{known}")
         return Bar(*self._records[place].item())
 
     if not TYPE_CHECKING:  # hidden from type checkers, which then report missing names

@@ -162,13 +162,13 @@ class PersistenceClustering(ClusterMixin, BaseEstimator):
             return np.asarray(hills.passes[order[_before_gap(lengths[order]):]])
         wanted = _options.whole("n_clusters", self.n_clusters, 1)
         if wanted > len(hills.peaks):
-            warnings.warn(f"n_clusters: found {wanted}, but the density has {len(hills.peaks)} "
-                          "peaks, and each is a cluster", ConvergenceWarning, stacklevel=3)
+            warnings.warn(f"n_clusters: found {wanted}, expected at most {len(hills.peaks)}, the number "
+                          "of peaks of the density; each peak is a cluster", ConvergenceWarning, stacklevel=3)
         if wanted >= parts:
             return np.asarray(hills.passes[order[wanted - parts:]])
-        warnings.warn(f"n_clusters: found {wanted}, but the graph of neighbours has {parts} parts: "
-                      "the parts whose densest points are nearest to each other are joined; a larger k "
-                      "also joins parts", ConvergenceWarning, stacklevel=3)
+        warnings.warn(f"n_clusters: found {wanted}, expected at least {parts}, the number of parts of "
+                      "the graph of neighbours; the parts whose densest points are nearest to each "
+                      "other are joined; a larger k also joins parts", ConvergenceWarning, stacklevel=3)
         return np.concatenate([hills.passes, self._joined_parts(points, hills, wanted)])
 
     def _joined_parts(self, points: _Numbers, hills: _Hills, wanted: int) -> _Integers:

@@ -266,7 +266,7 @@ def test_images():
         pairs, never = image.cofaces_of_persistence_pairs()
         assert [p.shape for p in pairs] == [(0, 2), (1, 2)] and pairs[1][0, 1] == 4
         assert len(never) == 1 and flat[never[0][0]] == 0 == flat[pairs[1][0, 0]]
-        with pytest.raises(RuntimeError, match="expected the other kind"):
+        with pytest.raises(RuntimeError, match="made of top-dimensional cells, expected one made of vertices"):
             image.vertices_of_persistence_pairs()
     line = gudhi.CubicalComplex(top_dimensional_cells=[2, 4, 3, 5])
     line.compute_persistence()

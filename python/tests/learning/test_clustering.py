@@ -228,7 +228,7 @@ def test_a_graph_that_falls_apart(rng):
     found = PersistenceClustering(10).fit(X)
     assert np.isinf(found.barcode_.deaths).sum() == 4 and found.n_clusters_ >= 4
     assert adjusted_rand_score(truth, PersistenceClustering(10, n_clusters=4).fit_predict(X)) == 1
-    with pytest.warns(sklearn.exceptions.ConvergenceWarning, match="the graph of neighbours has 4"):
+    with pytest.warns(sklearn.exceptions.ConvergenceWarning, match="expected at least 4, the number of parts"):
         two = PersistenceClustering(10, n_clusters=2).fit_predict(X)
     assert adjusted_rand_score(truth // 2, two) == 1
     distances = scipy.spatial.distance.cdist(X, X)
@@ -245,7 +245,7 @@ def test_parts_are_joined_by_their_densest_points(rng):
     densest = [np.flatnonzero(part == p)[np.argmin(function[part == p])] for p in range(7)]
     tree = scipy.cluster.hierarchy.linkage(X[densest], "single")
     for wanted in range(1, 7):
-        with pytest.warns(sklearn.exceptions.ConvergenceWarning, match="has 7 parts"):
+        with pytest.warns(sklearn.exceptions.ConvergenceWarning, match="expected at least 7, the number of parts"):
             found = PersistenceClustering(6, n_clusters=wanted).fit(X)
         assert len(found.barcode_) > 14  # components have several hills
         last = tree[6 - wanted, 2]  # the longest link that is needed

@@ -163,7 +163,7 @@ def test_fitted_grids_are_used_again(dgms):
 
 
 def test_centres_need_so_many_places(dgms):
-    with pytest.raises(ph.DataError, match="dgm0: different bars: found 6., expected at least 1000"):
+    with pytest.raises(ph.DataError, match="dgm0: distinct bars: found 6., expected at least 1000"):
         Atol(centres=1000).fit(dgms)
 
 

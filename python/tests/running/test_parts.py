@@ -46,7 +46,7 @@ def test_volumes_and_other_arrays():
     assert ph.join_parts(parts_of(holes, 4, **drop)).barcode() == ph.cubical(holes, **drop)
     with pytest.raises(ph.UsageError, match="dimension 0 alone, or 2 alone"):
         ph.image_part(VOLUME, 0, 2)
-    with pytest.raises(ph.UsageError, match="two or more"):
+    with pytest.raises(ph.UsageError, match="at least two such axes"):
         ph.image_part(np.zeros(2), 0, 1)
 
 

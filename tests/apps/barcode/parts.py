@@ -165,7 +165,7 @@ class Parts(PartsTest):
         self.assertTrue(resume("--superlevel")[0])
         is_new, said = resume()
         self.assertTrue(is_new)
-        self.assertIn("a different part", said)
+        self.assertIn("is not the requested part", said)
         with open(part, "rb") as file:
             whole = file.read()
         self.write("p.ph", whole[:-1] + bytes([whole[-1] ^ 1]))
@@ -261,14 +261,14 @@ class Clouds(PartsTest):
         old = time.time() - 1000
         os.utime(self.path(cloud), (old, old))
         self.assertIn("already exists", self.expect(0, *again).stderr)
-        self.assertIn("a different part", self.expect(0, *again, "--threshold", "3").stderr)
+        self.assertIn("is not the requested part", self.expect(0, *again, "--threshold", "3").stderr)
         self.expect(0, *again[:-1], "--quiet")
         kept = self.read(cloud)
         # Replaces the cloud with another one that has the same number of points and is older than
         # the part.
         self.write(cloud, self.read(other))
         os.utime(self.path(cloud), (old, old))
-        self.assertIn("a different part", self.expect(0, *again).stderr)
+        self.assertIn("is not the requested part", self.expect(0, *again).stderr)
         self.write(cloud, kept)
         os.utime(self.path(cloud), (old, old))
         self.write(p[0], b"ph part\n")

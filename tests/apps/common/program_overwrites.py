@@ -189,7 +189,7 @@ class Overwrites(FolderTest):
                 before = {name: self.read_bytes(name) for name in files}
                 run = self.run_in_folder(SEGMENT, *source, "-o", "*.pcd", stdin=opened)
                 self.assertEqual(run.returncode, 64, run.stderr)
-                self.assertIn("--output: s.pcd is an input, expected another file", run.stderr)
+                self.assertIn("--output: s.pcd is an input, expected a file that is not an input", run.stderr)
                 self.assertEqual(before, {name: self.read_bytes(name) for name in files}, source)
         for output in ("s.pcd", "hard-s.pcd", "list.txt"):
             self.refused(SEGMENT, "--json", files, "--frames-from", "list.txt", "--json", output)

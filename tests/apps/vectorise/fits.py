@@ -130,7 +130,7 @@ class Fits(ProgramTest):
     def test_too_few_bars_for_centres(self):
         run = self.expect(65, "a.csv", "--kind", "atol", "--dims", "1")
         self.assertIn("H1: ", run.stderr)
-        self.assertIn("H1: different bars: found 3, expected at least 10", run.stderr)
+        self.assertIn("H1: distinct bars: found 3, expected at least 10", run.stderr)
         self.assertIn("--count", run.stderr)
 
 

@@ -214,7 +214,7 @@ def entries():
     for name, program, inputs in (("distances", "ph-distance", ("good.csv", "good.csv")),
                                   ("vectors", "ph-vectorise", ("good.csv",))):
         yield Entry(50, f"{name} to a packed file", program, (*inputs, "-o", "o.csv.GZ"), 64,
-                    "found .gz, expected a name without it", "o.csv.GZ", {"good.csv": GOOD})
+                    "found .gz, expected a name without this ending", "o.csv.GZ", {"good.csv": GOOD})
     yield Entry(65, "what was fitted, unchanged", "ph-vectorise", ("--fitted", "fit.json", "good.csv"),
                 0, files={"good.csv": GOOD, "fit.json": FIT})
 

@@ -328,7 +328,8 @@ TEST(Alpha, OtherValues) {
   });
   AlphaOptions weighted{.weights = {1, 1}, .value = AlphaOptions::Value::delaunay_rips};
   weighted.unit = AlphaOptions::Unit::squared;
-  expect_error(ErrorKind::usage, "other than alpha", [&] { Alpha(Points(2, 2), weighted); });
+  expect_error(ErrorKind::usage, "found delaunay-rips values",
+               [&] { Alpha(Points(2, 2), weighted); });
 }
 
 TEST(Alpha, ThreadsChangeNothing) {

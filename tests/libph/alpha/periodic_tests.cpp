@@ -399,7 +399,7 @@ TEST(Periodic, Refusals) {
     expect_error(ErrorKind::usage, "period of axis 1", [&] {
       Alpha(Points(3, 2), {.period = {1, wrong}});
     });
-  expect_error(ErrorKind::usage, "other than alpha", [] {
+  expect_error(ErrorKind::usage, "found delaunay-cech values", [] {
     Alpha(Points(3, 2), {.period = {1, 1}, .value = AlphaOptions::Value::delaunay_cech});
   });
   expect_error(ErrorKind::bad_data, "rounded to 0", [] {

@@ -189,7 +189,7 @@ TEST(ImagePart, RefusesPartsAndImagesThatAreNone) {
   refused(image, 0, 0, "found 0, expected 1 to 4");
   refused(image, 3, 3, "found part 4 of 3");
   refused(image, -1, 3, "found part 0 of 3");
-  refused(random.image({7}, false), 0, 1, "expected two or more");
+  refused(random.image({7}, false), 0, 1, "expected at least two such axes");
   refused(random.image({2, 2, 2, 2, 2, 2, 2, 2, 2}, false), 0, 1, "found 9 axes");
   refused(random.image({3, 3, 3}, false), 0, 1, "dimension 0 alone, or 2 alone");
   refused(random.image({2, 2, 2, 2}, false), 0, 1, "from 1 to 2 need all layers at once");

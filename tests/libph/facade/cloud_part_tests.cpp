@@ -288,13 +288,14 @@ TEST(CloudPart, RefusesPartsAndCloudsThatAreNone) {
                            const char* why) {
     expect_error(ErrorKind::usage, why, [&] { CloudPart(of, part, parts, options); });
   };
-  refused(points, 0, 0, {}, "found 0, expected 1 to 2^30");
-  refused(points, 0, (1 << 30) + 1, {}, "found 1073741825, expected 1 to 2^30");
+  refused(points, 0, 0, {}, "found 0 parts, expected 1 to 2^30");
+  refused(points, 0, (1 << 30) + 1, {}, "found 1073741825 parts, expected 1 to 2^30");
   refused(points, 3, 3, {}, "found part 4 of 3");
   refused(points, -1, 3, {}, "found part 0 of 3");
   refused(points, 0, 1, {.threshold = -1}, "threshold -1");
   refused(points, 0, 1, {.threshold = std::nan("")}, "threshold nan");
-  refused(points, 0, 1, {.distance = PointDistance::manhattan}, "expected the Euclidean distance");
+  refused(points, 0, 1, {.distance = PointDistance::manhattan},
+          "found distance manhattan, expected euclidean");
   refused(points, 0, 1, {.blocks = -1}, "found -1 blocks");
   refused(points, 0, 1, {.sample = 10},
           "found a sample of 10, expected 0 to the number of points, 9");

@@ -286,7 +286,8 @@ TEST(Loops, NeedCycles) {
   // Without points, there is no bar that could have a loop.
   EXPECT_TRUE(loops(Rips(Points(0, 2)), persistence(Rips(Points(0, 2)))).empty());
   if (!cycles.bars(1).empty())
-    expect_error(ErrorKind::usage, "a different complex", [&] { loops(other, cycles); });
+    expect_error(ErrorKind::usage, "an edge that is not in this complex",
+                 [&] { loops(other, cycles); });
 }
 
 }  // namespace

@@ -19,9 +19,9 @@ TEST(Device, DoesComponentsOfEuclideanPointsAlone) {
     expect_error(ErrorKind::usage, message(found), [&] { Rips(data, options); });
   };
   const auto refused_task = [&](const RipsOptions& options, const Options& task) {
-    expect_error(ErrorKind::usage, message("another task"),
+    expect_error(ErrorKind::usage, message("a task for the CPU only"),
                  [&] { plan(Rips(kSquare, options), task); });
-    expect_error(ErrorKind::usage, message("another task"),
+    expect_error(ErrorKind::usage, message("a task for the CPU only"),
                  [&] { persistence(Rips(kSquare, options), task); });
   };
   refused_task(kForest, {});
@@ -30,7 +30,7 @@ TEST(Device, DoesComponentsOfEuclideanPointsAlone) {
   refused_task({.approximation = 0.5, .device = Device::gpu}, {.max_dim = 0});
   RipsOptions options = kForest;
   options.distance = PointDistance::manhattan;
-  refused("a different distance", kSquare, options);
+  refused("a distance that is not Euclidean", kSquare, options);
   options = kForest;
   const std::vector<double> births(4, 0.5);
   options.births = births;

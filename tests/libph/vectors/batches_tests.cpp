@@ -146,9 +146,9 @@ TEST(Atol, OfFewBars) {
   EXPECT_EQ(fit_atol(Spans{copies}, {.centres = 1}), (Atol{{{1, 3}}, {1}}));
   EXPECT_EQ(fit_atol(Spans{two}, {.centres = 2}),
             (Atol{{{0, 1}, {1, 3}}, {std::sqrt(5) / 2, std::sqrt(5) / 2}}));
-  expect_error(ErrorKind::bad_data, "different bars: found 2, expected at least 3",
+  expect_error(ErrorKind::bad_data, "distinct bars: found 2, expected at least 3",
                [&] { fit_atol(Spans{two}, {.centres = 3}); });
-  expect_error(ErrorKind::bad_data, "different bars: found 0",
+  expect_error(ErrorKind::bad_data, "distinct bars: found 0",
                [&] { fit_atol({}, {.centres = 1}); });
   // The squared distance between the first two bars is 0 as a double.
   const Bars close = {{0, 0, 1}, {0, 5e-324, 1}, {0, 0, 1 + 0x1p-52}};
@@ -181,10 +181,11 @@ TEST(Atol, RefusesWhatMakesNoSenseAndStops) {
   expect_error(ErrorKind::bad_data, "expected finite bars", [&] {
     fit_atol(Spans{Bars{{0, 0, kInfinity}}});
   });
-  for (const Atol& wrong : {Atol{}, Atol{{{0, 1}, {0, 2}}, {1}}, Atol{{{0, 1}, {0, 2}}, {1, 0}},
-                            Atol{{{0, 1}, {0, std::nan("")}}, {1, 1}}})
-    expect_error(ErrorKind::usage, "expected equal numbers",
-                 [&] { atol_vector(bars, wrong, out); });
+  for (const Atol& wrong : {Atol{}, Atol{{{0, 1}, {0, 2}}, {1}}})
+    expect_error(ErrorKind::usage, "one width for each", [&] { atol_vector(bars, wrong, out); });
+  for (const Atol& wrong :
+       {Atol{{{0, 1}, {0, 2}}, {1, 0}}, Atol{{{0, 1}, {0, std::nan("")}}, {1, 1}}})
+    expect_error(ErrorKind::usage, "finite widths above 0", [&] { atol_vector(bars, wrong, out); });
   expect_error(ErrorKind::usage, "expected 1", [&] { atol_vector(bars, {{{0, 1}}, {1}}, out); });
   test::StoppedContext context;
   expect_error(ErrorKind::cancelled, "stopped", [&] { fit_atol(Spans{bars}, {}, context); });

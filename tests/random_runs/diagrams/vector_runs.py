@@ -64,7 +64,7 @@ def expected_refusal(task):
         for points in of_dims:
             far = max(abs(x) for bar in points for x in bar)
             if any(math.dist(p, q) < far * 1e-150 for p, q in itertools.combinations(points, 2)):
-                return [0, 64], ["widths > 0"]  # the square of so small a distance is 0
+                return [0, 64], ["finite widths above 0"]  # the square of so small a distance is 0
     longest = max((e - b for _, b, e in used if e - b < INF), default=0.0)
     if task.kind == "image" and longest > 0 and task.power * math.log10(longest) > 300:
         return [0, 65], ["expected a finite weight"]  # the bar may be outside the pixels

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <memory_resource>
@@ -18,9 +20,8 @@ using std::uint32_t;
 
 void check_values(const Alpha& alpha, double value, std::string_view what) {
   if (alpha.value_kind() != AlphaOptions::Value::alpha)
-    throw Error(
-        ErrorKind::usage,
-        std::string(what) + ": found values other than alpha values, expected alpha values");
+    throw Error(ErrorKind::usage, fmt::format("{}: found {} values, expected alpha values", what,
+                                              name_of(alpha.value_kind())));
   if (alpha.is_periodic())
     throw Error(ErrorKind::usage,
                 std::string(what) + ": found a periodic space, expected one without periods");

@@ -11,6 +11,7 @@
 #include "libph/src/facade/parts/cloud_state.hpp"
 #include "libph/src/metric/blocks/cloud_blocks.hpp"
 #include "ph/barcode.hpp"
+#include "ph/detail/metric/metric.hpp"
 #include "ph/detail/metric/spanning_forest.hpp"
 #include "ph/detail/rips/rips_graph.hpp"
 #include "ph/error.hpp"
@@ -34,13 +35,15 @@ void check(PointsView points, int part, int parts, const CloudPartOptions& optio
     throw Error(ErrorKind::usage, "parts of a cloud: " + what);
   };
   if (options.distance != PointDistance::euclidean)
-    refuse("found a different distance, expected the Euclidean distance");
+    refuse(fmt::format("found distance {}, expected euclidean", name_of(options.distance)));
   if (!has_fast_spanning_forest(points, options.distance))
     refuse(fmt::format("found {} coordinates, expected at most 8", points.cols()));
   if (options.threshold && !(*options.threshold >= 0))
     refuse(fmt::format("found threshold {}, expected a number >= 0", *options.threshold));
-  if (parts < 1 || parts > 1 << 30) refuse(fmt::format("found {}, expected 1 to 2^30", parts));
-  if (part < 0 || part >= parts) refuse(fmt::format("found part {} of {}", part + 1, parts));
+  if (parts < 1 || parts > 1 << 30)
+    refuse(fmt::format("found {} parts, expected 1 to 2^30", parts));
+  if (part < 0 || part >= parts)
+    refuse(fmt::format("found part {0} of {1}, expected part 1 to {1}", part + 1, parts));
   if (options.blocks < 0 || options.blocks > (1 << 30) / parts)
     refuse(fmt::format("found {} blocks in each of {} parts, expected at most 2^30 blocks in total",
                        options.blocks, parts));

@@ -56,8 +56,8 @@ GridShape shape_of(const WholeImage& whole) {
 std::uint64_t layers_of(const GridShape& shape) {
   if (shape.top_dim() < 2)
     throw Error(ErrorKind::usage,
-                "parts of an image: found one axis or none with more than one "
-                "voxel, expected two or more");
+                "parts of an image: found one axis or none with more than one voxel, "
+                "expected at least two such axes");
   return shape.axis(shape.layer_axis()).extent;
 }
 
@@ -149,7 +149,8 @@ ImagePart::ImagePart(const Image& image, int part, int parts, const ImagePartOpt
   state_ = std::make_unique<State>(cubical::checked_whole(image, parts, options), context);
   if (part < 0 || part >= parts)
     throw Error(ErrorKind::usage,
-                fmt::format("part of an image: found part {} of {}", part + 1, parts));
+                fmt::format("part of an image: found part {0} of {1}, expected part 1 to {1}",
+                            part + 1, parts));
   const GridShape& shape = state_->shape;
   const GridShape::Axis& axis = shape.axis(shape.layer_axis());
   state_->first = state_->last = part;

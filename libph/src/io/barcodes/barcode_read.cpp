@@ -14,9 +14,12 @@ namespace ph {
 namespace {
 
 Barcode read_dipha(const Input& input) {
-  if (detail::dipha_type(input) != detail::DiphaType::diagram) {
-    input.fail_at_byte(8,
-                       {"not a persistence diagram", "another type of DIPHA file", "type 2", {}});
+  const detail::DiphaType type = detail::dipha_type(input);
+  if (type != detail::DiphaType::diagram) {
+    input.fail_at_byte(8, {"not a persistence diagram",
+                           fmt::format("DIPHA file type {}", static_cast<std::int64_t>(type)),
+                           "type 2",
+                           {}});
   }
   BinaryCursor cursor(input, std::endian::little, 16);
   constexpr std::size_t kBar = 24;

@@ -265,7 +265,7 @@ Input Input::open(const std::filesystem::path& whole_path, const RunContext* con
       probed = true;
       if (std::all_of(storage->data, storage->data + kNulProbe, [](char c) { return c == 0; })) {
         input.fail_at_byte(
-            0, {"not data", "only NUL bytes in the first MiB of a stream", "other bytes",
+            0, {"not data", "only NUL bytes in the first MiB of a stream", "bytes other than NUL",
                 "if the NUL bytes are intended, save them to a file first"});
       }
     }

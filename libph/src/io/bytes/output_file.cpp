@@ -63,10 +63,9 @@ void require_unpacked(const std::string& path) {
   constexpr std::array<std::string_view, 6> kPacked{".gz", ".bz2", ".xz", ".zst", ".zip", ".7z"};
   for (const std::string_view packed : kPacked)
     if (ends_in(path, packed))  // mutant: output-packed
-      throw Error(
-          ErrorKind::usage,
-          fmt::format("{}: found {}, expected a name without it: outputs are not compressed",
-                      printable(path), packed));
+      throw Error(ErrorKind::usage, fmt::format("{}: found {}, expected a name without this "
+                                                "ending, because outputs are not compressed",
+                                                printable(path), packed));
 }
 
 OutputFile::OutputFile(std::string path) : path_(std::move(path)) {

@@ -160,7 +160,7 @@ void gunzip_into(Buffer& bytes, const Input& input, std::size_t most) {
     if (!is_gzip(rest)) {
       input.fail_at_byte(inflater.used(), {"trailing data after gzip data",
                                            fmt::format("{} more bytes", rest.size()),
-                                           "the end of the file or another member",
+                                           "the end of the file or a further gzip member",
                                            {}});
     }
     inflater.restart();

@@ -98,7 +98,7 @@ std::size_t Cloud::add_field(std::string name, FieldType type, std::size_t count
   const auto points = static_cast<std::size_t>(size());
   const auto bytes = checked_product(points, wider);
   if (!bytes || *bytes > std::numeric_limits<std::ptrdiff_t>::max())
-    throw Error(ErrorKind::resource, "cloud: too large for another field");
+    throw Error(ErrorKind::resource, fmt::format("cloud: too large to add the field {}", name));
   std::vector<std::byte> wide(*bytes);
   for (std::size_t i = 0; i < points && stride > 0; ++i) {
     std::memcpy(wide.data() + i * wider, data.data() + i * stride, stride);

@@ -51,9 +51,9 @@ Cloud cloud_from_depth(const Image& depth, const std::optional<Raster>& colour,
   }
   if (colour) colour->check();
   if (depth.extents.size() != 2) {
-    throw Error(
-        ErrorKind::usage,
-        fmt::format("depth image: found {} axes, expected rows and columns", depth.extents.size()));
+    throw Error(ErrorKind::usage,
+                fmt::format("depth image: found {} axes, expected 2: rows and columns",
+                            depth.extents.size()));
   }
   const Index height = depth.extents[0], width = depth.extents[1];
   if (height < 0 || width < 0 ||

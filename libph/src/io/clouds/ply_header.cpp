@@ -80,7 +80,7 @@ class PlyHeaderParser {
                                        {}});
   }
   std::string word() {
-    if (!cells_.more()) fail_line("PLY header: line too short", "another word");
+    if (!cells_.more()) fail_line("PLY header: line too short", "one more word");
     return std::string(cells_.word());
   }
   FieldType type() {

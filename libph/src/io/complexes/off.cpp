@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
 
 #include "libph/src/io/bytes/readers.hpp"
+#include "ph/error.hpp"
 #include "ph/io/read.hpp"
 
 namespace ph {
@@ -51,8 +53,11 @@ Mesh read_off(const Input& input, const ReadOptions& options) {
   TextLines lines(input);
   Cells cells(lines);
   if (!lines.next() || (cells.start(), std::ranges::find(kWords, cells.word()) == kWords.end())) {
-    input.fail_at(
-        1, 1, {"not an OFF file", "a different first word", "OFF, or OFF after ST, C or N", {}});
+    input.fail_at(1, 1,
+                  {"not an OFF file",
+                   "a different first word",
+                   alternatives(fmt::format("{}", fmt::join(kWords, "|"))),
+                   {}});
   }
   if (!cells.more()) {
     if (!lines.next())
