@@ -45,8 +45,9 @@ class Run {
         context_(session.context()),
         files_(app::barcode_files(arguments.inputs)) {
     if (files_.size() < 2)
-      throw Error(ErrorKind::usage, fmt::format("BARCODE: found {} only, expected two or more",
-                                                printable(files_[0])));
+      throw Error(ErrorKind::usage,
+                  fmt::format("BARCODE: found only {}, expected at least two barcodes",
+                              printable(files_[0])));
     app::require_in_scope(arguments.given, files_.size() == 2 ? kTwo : kMany,
                           app::count_of(files_.size(), "barcode"));
     if (arguments.common.threads > 0 && files_.size() == 2 &&

@@ -101,8 +101,8 @@ std::string about_plane(const Segmentation& s, const std::string& viewpoint) {
   const auto& [x, y, z] = s.tree.viewpoint;
   if (s.tree.plane->signed_distance(x, y, z) < too_low) {
     return fmt::format(
-        "the viewpoint {} lies on the plane that was found: are the points in "
-        "another frame? see {}",
+        "the viewpoint {} lies on the plane that was found: are the points and "
+        "the viewpoint in different frames? see {}",
         viewpoint, mark(Setting::viewpoint));
   }
   // If the points are in the frame of their sensor, at most 0.4 of them are behind the plane (past
@@ -111,8 +111,8 @@ std::string about_plane(const Segmentation& s, const std::string& viewpoint) {
   const auto [behind, hidden] = s.plane_sight;
   if (hidden < some_hidden || (hidden < much_hidden && behind < nearly_all)) return {};
   return fmt::format(
-      "{:.0f} % of the points off the plane lie behind it as seen from {}: are they "
-      "in another frame? see {}",
+      "{:.0f} % of the points off the plane lie behind it as seen from {}: are the "
+      "points and the viewpoint in different frames? see {}",
       100 * behind, viewpoint, mark(Setting::viewpoint));
 }
 
@@ -129,8 +129,8 @@ std::string about_viewpoint(const SegmentOptions& o, const Segmentation& s) {
                        mark(Setting::viewpoint), text(*o.viewpoint), text(*s.rays_meet_at));
   }
   return fmt::format(
-      "the rays of the pixels do not meet at the viewpoint of the input but at {}, which is used; "
-      "{} sets another one",
+      "the rays of the pixels do not meet at the viewpoint of the input but at {}, which is used "
+      "as the viewpoint; {} replaces it",
       text(*s.rays_meet_at), mark(Setting::viewpoint, "X,Y,Z"));
 }
 

@@ -108,12 +108,12 @@ void require_inputs(const Arguments& a) {
     reject("INPUT: standard input can be read once only");
   if (several && depth)
     reject(
-        "--depth: found an output for several frames, expected a file for one; give several as "
-        "INPUT, as a folder, or with --frames-from");
+        "--depth: found an output for several frames, expected a file for one frame; INPUT and "
+        "--frames-from accept several depth images");
   if (a.signatures && a.files.json.empty()) reject("--signatures: needs --json");
   if (several && a.explain)
-    reject("--explain: found several inputs or an output for several, expected one input");
-  if (!several && a.stable_labels) reject("--stable-labels: expected several frames");
+    reject("--explain: found several inputs or an output for several, expected one of each");
+  if (!several && a.stable_labels) reject("--stable-labels: found one frame, expected several");
 }
 
 void require_consistent(const Arguments& a) {

@@ -86,7 +86,8 @@ void Outputs::require_suitable(Index height) const {
   const auto refuse = [&](std::string_view option, std::string_view hint) {
     throw Error(
         ErrorKind::usage,
-        fmt::format("{}: found an unorganised cloud, expected rows and columns; {}", option, hint));
+        fmt::format("{}: found an unorganised cloud, expected one with rows and columns; {}",
+                    option, hint));
   };
   if (extension_of(f.labels) == ".png") refuse("--labels", "use .npy or .csv");
   if (extension_of(f.surfaces) == ".png") refuse("--surfaces", "use .npy or .csv");

@@ -19,7 +19,7 @@ FilteredGraph::FilteredGraph(std::span<const double> births, std::size_t edge_co
   if (births.size() + edge_count >= UINT32_MAX) {
     throw Error(ErrorKind::resource,
                 fmt::format("graph: found {} vertices and {} edges, expected fewer than 2^32 - 1 "
-                            "cells",
+                            "of both together",
                             births.size(), edge_count));
   }
   for (std::size_t v = 0; v < births_.size(); ++v) {

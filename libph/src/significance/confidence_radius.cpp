@@ -65,7 +65,8 @@ std::size_t usual_size(std::size_t n) {
 
 void check(std::size_t n, const ConfidenceOptions& options) {
   significance::check_alpha(options.alpha, "confidence_radius");
-  if (n == 0) throw Error(ErrorKind::usage, "confidence_radius: found no points");
+  if (n == 0)
+    throw Error(ErrorKind::usage, "confidence_radius: found no points, expected at least one");
   if (options.subsamples == 0)
     throw Error(ErrorKind::usage, "confidence_radius: subsamples: found 0, expected at least 1");
   if (options.size > n)

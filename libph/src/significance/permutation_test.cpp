@@ -34,7 +34,7 @@ Groups numbered(std::span<const std::int64_t> given) {
     if (groups.sizes[number] < 2)
       throw Error(ErrorKind::usage,
                   fmt::format("permutation_test: found one diagram in group {}, expected at least "
-                              "2 in each",
+                              "2 in each group",
                               name));
   if (numbers.size() < 2)
     throw Error(
@@ -51,10 +51,11 @@ void check(const DistanceMatrix& distances, std::size_t labels, const Permutatio
                 fmt::format("permutation_test: power: found {}, expected a finite number above 0",
                             options.power));
   if (labels != static_cast<std::size_t>(distances.size()))
-    throw Error(ErrorKind::usage,
-                fmt::format("permutation_test: found {} groups for {} diagrams, expected one for "
-                            "each",
-                            labels, distances.size()));
+    throw Error(
+        ErrorKind::usage,
+        fmt::format("permutation_test: found the groups of {} diagrams, expected those of {}, "
+                    "the number of rows of the distances",
+                    labels, distances.size()));
 }
 
 /// A unit in which the power of the largest distance neither overflows nor underflows. The unit is

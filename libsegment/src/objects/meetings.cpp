@@ -39,8 +39,9 @@ std::optional<Meeting> first_meeting(const SceneTree& scene, const SceneCut& cut
                   fmt::format("{}: found segment {}, expected one of 1 to {}",
                               mark(Setting::first_meeting), label, cut.segments.size()));
   if (a == b)
-    throw Error(ErrorKind::usage, fmt::format("{}: found segment {} twice, expected two segments",
-                                              mark(Setting::first_meeting), a));
+    throw Error(ErrorKind::usage,
+                fmt::format("{}: found segment {} twice, expected two different segments",
+                            mark(Setting::first_meeting), a));
   // The parts of a segment count as joined from the start.
   DisjointSets sets(cut.vertex_labels.size(), std::pmr::get_default_resource());
   const auto join = [&](std::uint32_t u, std::uint32_t v) {

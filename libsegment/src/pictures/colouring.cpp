@@ -177,7 +177,7 @@ Raster picture(const Cloud& cloud, std::span<const std::uint32_t> labels,
                std::span<const std::uint32_t> colours) {
   if (!cloud.organised()) {
     throw Error(ErrorKind::bad_data,
-                "picture: found an unorganised cloud, expected rows and columns");
+                "picture: found an unorganised cloud, expected one with rows and columns");
   }
   const std::vector<int> grey = brightness(cloud);
   const Index width = cloud.width, height = cloud.height;

@@ -80,7 +80,7 @@ class OptionsTest(ProgramTest):
                                                                              "-o", "-"],
                           [*PAIR, "--dim", "1", "--matrix", "-", "--matching", "-", "-o", "x"]):
             self.expect(64, *arguments)
-        self.assertIn("found a.csv only, expected two or more", self.expect(64, "a.csv").stderr)
+        self.assertIn("found only a.csv, expected at least two barcodes", self.expect(64, "a.csv").stderr)
 
     def test_outputs_replace_no_input(self):
         before = self.files()

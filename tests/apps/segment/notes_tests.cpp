@@ -106,7 +106,9 @@ TEST_F(Notes, AnotherFrame) {
   const auto points = static_cast<Index>(dense.size() / 3);
   write_cloud(at("dense.pcd"), test::cloud_of(dense, points, 1));
   ASSERT_EQ(run("dense.pcd"), 0) << err();
-  EXPECT_TRUE(notes("as seen from 0.000,0.000,0.000: are they in another frame? see --viewpoint"))
+  EXPECT_TRUE(
+      notes("as seen from 0.000,0.000,0.000: are the points and the viewpoint in different frames? "
+            "see --viewpoint"))
       << err();
   ASSERT_EQ(run("dense.pcd --viewpoint " + sensor), 0) << err();
   EXPECT_EQ(std::ranges::count(err(), '\n'), 1) << err();

@@ -26,7 +26,7 @@ TEST(WriteSurface, RefusesWhatIsNone) {
   };
   refused({{{0, 1, 3}}, 1}, "found a corner at point 3, expected 0 to 2");
   refused({{{0, 1, 2}, {-1, 1, 2}}, 2}, "found a corner at point -1, expected 0 to 2");
-  refused({{{0, 1, 2}}, 2}, "found 2 regular triangles among 1");
+  refused({{{0, 1, 2}}, 2}, "found 2 regular triangles, expected at most 1");
   refused({{{0, 1, 2}}, 1}, "found numbers for 2 points, expected 3", {5, 6});
   refused({{{0, 1, 2}}, 1}, "found point number -1", {5, -1, 6});
   refused({{{0, 1, 2}}, 1}, "found point number 4294967303, expected 0 to 4294967295",

@@ -258,7 +258,8 @@ TEST(PermutationTests, Errors) {
   const auto of = [&](std::vector<std::int64_t> groups, PermutationOptions options = {}) {
     return [&, groups, options] { permutation_test(distances, groups, options); };
   };
-  expect_error(ErrorKind::usage, "3 groups for 4 diagrams", of({0, 0, 1}));
+  expect_error(ErrorKind::usage, "found the groups of 3 diagrams, expected those of 4",
+               of({0, 0, 1}));
   expect_error(ErrorKind::usage, "one diagram in group 7", of({0, 0, 0, 7}));
   expect_error(ErrorKind::usage, "found 1 groups", of({0, 0, 0, 0}));
   expect_error(ErrorKind::usage, "shuffles", of({0, 0, 1, 1}, {.shuffles = 0}));

@@ -157,9 +157,9 @@ void CloudPart::join(CloudPart other, const RunContext& context) {
                 fmt::format("parts of a cloud: found part {} twice", twice[0] + 1));
   std::ranges::merge(state_->present, others, std::back_inserter(present));
   if (other.state_->size > state_->whole.points - state_->size)
-    throw Error(ErrorKind::bad_data,
-                fmt::format("parts of a cloud: found more points than the {} of the cloud",
-                            state_->whole.points));
+    throw Error(ErrorKind::bad_data, fmt::format("parts of a cloud: found more points than the {} "
+                                                 "of the cloud, expected parts of one cloud",
+                                                 state_->whole.points));
   state_->forest.join(std::move(other.state_->forest), context);
   state_->present = std::move(present);
   state_->size += other.state_->size;

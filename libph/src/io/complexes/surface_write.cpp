@@ -78,9 +78,11 @@ void write_surface(OutputFile& file, PointsView points, const SurfaceMesh& mesh,
     throw Error(ErrorKind::usage,
                 fmt::format("surface: found points of R^{}, expected R^2 or R^3", points.cols()));
   if (mesh.regular > mesh.triangles.size())
-    throw Error(ErrorKind::usage,
-                fmt::format("surface: found {} regular triangles among {}, expected at most {}",
-                            mesh.regular, mesh.triangles.size(), mesh.triangles.size()));
+    throw Error(
+        ErrorKind::usage,
+        fmt::format(
+            "surface: found {} regular triangles, expected at most {}, the number of triangles",
+            mesh.regular, mesh.triangles.size()));
   const std::vector<Index> used = points_of(mesh);
   if (!used.empty() && (used.front() < 0 || used.back() >= points.rows()))
     throw Error(ErrorKind::usage,
