@@ -87,8 +87,10 @@ void check_part_arguments(const Job& job) {
   if (job.sharing.part && job.sharing.joins)
     reject("--join: found together with --part; compute the parts first");
   const std::string_view option = job.sharing.part ? "--part" : "--join";
-  if (!job.compare.empty()) reject(fmt::format("{}: found together with --compare", option));
-  if (job.stored) reject(fmt::format("{}: found together with the word plot", option));
+  if (!job.compare.empty())
+    reject(fmt::format("{}: cannot be combined with --compare; leave out one of them", option));
+  if (job.stored)
+    reject(fmt::format("{}: cannot be combined with the word plot; leave out one of them", option));
   if (!job.places.report.empty())
     reject(fmt::format(
         "--report: found together with {}; `ph-barcode plot BARS --report` makes a report",

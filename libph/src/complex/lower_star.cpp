@@ -60,8 +60,9 @@ ExplicitComplex lower_star(const SimplexList& simplices, std::span<const double>
     for (const Index v : vertices) {
       if (v < 0 || v >= static_cast<Index>(vertex_values.size())) {
         throw Error(ErrorKind::bad_data,
-                    fmt::format("{}: vertex {} has no value; there are {} values", where(), v,
-                                vertex_values.size()));
+                    fmt::format("{}: vertex {} has no value, expected vertices >= 0 and below {}, "
+                                "the number of values",
+                                where(), v, vertex_values.size()));
       }
     }
     if (std::adjacent_find(vertices.begin(), vertices.end()) != vertices.end())

@@ -25,8 +25,9 @@ std::size_t voxels_of(const std::vector<Index>& extents, std::size_t bytes_of_vo
   if (is_empty) return 0;
   for (const Index n : extents) {
     if (static_cast<std::size_t>(n) > most / count)
-      throw Error(ErrorKind::usage,
-                  fmt::format("image: found extents {}, which are too large", extents));
+      throw Error(
+          ErrorKind::usage,
+          fmt::format("image: found extents {}, expected a product of at most {}", extents, most));
     count *= static_cast<std::size_t>(n);
   }
   return count;

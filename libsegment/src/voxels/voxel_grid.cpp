@@ -198,10 +198,13 @@ VoxelGrid voxel_grid(const CloudView& cloud, const std::vector<Index>& points, d
 void require_exact_cells(const VoxelGrid& grid, double voxel) {
   for (const Vec3& cell : grid.cells) {
     if (std::ranges::all_of(cell, [](double c) { return std::abs(c) <= kMostExactCell; })) continue;
-    throw Error(ErrorKind::usage,
-                fmt::format("{}: found {}, expected a length that suits points around ({}, {}, {})",
-                            mark(Setting::voxel), voxel, cell[0] * voxel, cell[1] * voxel,
-                            cell[2] * voxel));
+    const double farthest = std::max({std::abs(cell[0]), std::abs(cell[1]), std::abs(cell[2])});
+    throw Error(
+        ErrorKind::usage,
+        fmt::format(
+            "{}: found {}, expected at least about {:.2g}, because points lie around ({}, {}, {})",
+            mark(Setting::voxel), voxel, farthest / kMostExactCell * voxel, cell[0] * voxel,
+            cell[1] * voxel, cell[2] * voxel));
   }
 }
 

@@ -131,7 +131,7 @@ TEST(ImageOfArray, SaysWhatIsWrong) {
   };
   fails({-1}, {}, "found extents [-1]");
   fails({1, 1}, {&stride, 1}, "found 1 strides, expected 2");
-  fails({Index{1} << 40, Index{1} << 40}, {}, "too large");
+  fails({Index{1} << 40, Index{1} << 40}, {}, "expected a product of at most");
 }
 
 TEST(VoxelImage, IsTheDistanceToTheNearestOccupiedVoxel) {
