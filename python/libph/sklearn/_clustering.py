@@ -163,7 +163,8 @@ class PersistenceClustering(ClusterMixin, BaseEstimator):
         wanted = _options.whole("n_clusters", self.n_clusters, 1)
         if wanted > len(hills.peaks):
             warnings.warn(f"n_clusters: found {wanted}, expected at most {len(hills.peaks)}, the number "
-                          "of peaks of the density; each peak is a cluster", ConvergenceWarning, stacklevel=3)
+                          "of peaks of the density; each peak is a cluster", ConvergenceWarning,
+                          stacklevel=3)
         if wanted >= parts:
             return np.asarray(hills.passes[order[wanted - parts:]])
         warnings.warn(f"n_clusters: found {wanted}, expected at least {parts}, the number of parts of "

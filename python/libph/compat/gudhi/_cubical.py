@@ -145,7 +145,8 @@ class CubicalComplex(Persistence):
         if self._is_vertices != of_vertices:
             raise _OrderError(f"{asked}: found a complex made of "
                               f"{'vertices' if self._is_vertices else 'top-dimensional cells'}, "
-                              f"expected one made of {'vertices' if of_vertices else 'top-dimensional cells'}")
+                              "expected one made of "
+                              f"{'vertices' if of_vertices else 'top-dimensional cells'}")
         finite, essential = [], []
         for dim in range(self._dims):
             order, dies = self._order(dim)
