@@ -38,6 +38,7 @@ double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
 /// The convex hull of some points, counterclockwise (A. M. Andrew, Another efficient algorithm for
 /// convex hulls in two dimensions, 1979).
 Outline hull_of(Outline points) {
+  if (points.size() < 3) return points;
   std::ranges::sort(points, {}, [](const Eigen::Vector2d& p) { return std::pair(p.x(), p.y()); });
   Outline hull;
   for (int side = 0; side < 2; ++side) {

@@ -300,6 +300,18 @@ TEST(Containers, ABinIsOneSegment) {
   EXPECT_EQ(cut(s.tree, s.tree.first_cut).segments, s.cut.segments);
 }
 
+TEST(Containers, PartsOfOneVoxelAreNone) {
+  // A plane and single points in front of it, each of which is a part.
+  std::vector<float> xyz;
+  for (int i = -40; i < 40; ++i)
+    for (int k = -40; k < 40; ++k)
+      xyz.insert(xyz.end(), {0.004F * static_cast<float>(i), 0.004F * static_cast<float>(k), 1});
+  for (int i = 0; i < 5; ++i) xyz.insert(xyz.end(), {0.04F * static_cast<float>(i), 0, 0.9F});
+  const Segmentation s = segment(CloudView{xyz, {}}, {.min_size = 1, .min_part = 1});
+  EXPECT_EQ(s.cut.segments.size(), 5U);
+  for (const Segment& segment : s.cut.segments) EXPECT_EQ(segment.role, Role::object);
+}
+
 TEST(Containers, TwoThingsAreTooFewAndABoxBelowThreeIsNone) {
   std::vector<Block> blocks{kTable};
   for (const Block& part : bin()) blocks.push_back(part);
