@@ -194,7 +194,7 @@ def unique_pairs(row: NDArray[np.int64], column: NDArray[np.int64], values: NDAr
         place = i[starts[k]], j[starts[k]]
         mirror = "" if place[0] == place[1] else " and its mirror image"
         raise DataError(f"{name}: {_arrays.place_of(place)}{mirror}: found {least[k]} and "
-                        f"{largest[k]}, expected both equal{hint}")
+                        f"{largest[k]}, expected equal values{hint}")
     lower = values[np.append(starts[1:], len(i)) - 1]
     chosen = {"max": largest, "min": least}.get(symmetrise or "lower", lower)
     return i[starts], j[starts], chosen

@@ -164,7 +164,7 @@ std::unique_ptr<Recipe> lower_star_of(const py::buffer& vertices, const py::buff
                                       const py::buffer& vertex_values,
                                       std::optional<double> threshold) {
   SimplexList list{vector_of<Index>(vertices), sizes_of(offsets), {}};
-  // The values are ignored, because the complex is the complex of the vertices' values.
+  // The values of the simplices are ignored, because they follow from the values of the vertices.
   list.values.resize(list.size());
   std::vector<double> values = vector_of<double>(vertex_values);
   const std::size_t cells = values.size() + 4 * list.vertices.size();

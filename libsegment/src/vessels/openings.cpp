@@ -127,7 +127,8 @@ void assign_points_in_openings(const CloudView& cloud, const std::vector<Index>&
     const Eigen::Vector3d p = above({q[0], q[1], q[2]});
     for (const Opening& opening : openings) {
       if (p.z() >= opening.height) continue;
-      // This is the distance from the axis of the point's ray at a given height.
+      // The distance between the axis of the opening and the ray through the point, at a given
+      // height.
       const auto from_axis = [&](double height) {
         const double t = (eye.z() - height) / (eye.z() - p.z());
         return ((eye + t * (p - eye)).head<2>() - opening.circle.centre).norm();

@@ -105,7 +105,8 @@ class ImagePart(Part):
                                  "of ImageLoops.barcode")
         if not self.has_loops:
             if loops:
-                raise UsageError("loops: found loops, expected none for an image without loops")
+                raise UsageError(f"loops: found {len(loops)} barcodes, expected none for a part "
+                                 "without loops (has_loops is False)")
             return
         found = sorted(bars.meta["part"] for bars in loops)
         if found != list(range(self.parts)):

@@ -226,7 +226,7 @@ DISTANCES = {"distance_matrix": True}
     (np.array([[0.0, np.nan], [np.nan, 0]]), DISTANCES, "row 0, column 1: found nan"),
     (np.array([[0.0, 1], [2, 0]]), DISTANCES, "row 0, column 1: found 1.0, but 2.0"),
     (np.array([[np.nan, 1], [1, 0]]), DISTANCES, "the diagonal: entry 0: found nan"),
-    (sparse.coo_matrix(([1.0, 2], ([0, 1], [1, 0]))), DISTANCES, "expected both equal"),
+    (sparse.coo_matrix(([1.0, 2], ([0, 1], [1, 0]))), DISTANCES, "expected equal values"),
     (sparse.coo_matrix(([np.nan], ([0], [1])), shape=(2, 2)), DISTANCES, "found nan")])
 @pytest.mark.filterwarnings("ignore:The input matrix is square")
 def test_errors(data, options, text):

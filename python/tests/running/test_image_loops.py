@@ -265,7 +265,7 @@ def test_what_is_lost_is_seen():
         whole.barcode(loops=[*bars[:2], others[2]])
     flat = ph.image_part(VOLUME[0], 0, 1, loops=True)
     assert not flat.has_loops and flat.barcode() == ph.cubical(VOLUME[0])
-    with pytest.raises(ph.UsageError, match="an image without loops"):
+    with pytest.raises(ph.UsageError, match="a part without loops"):
         flat.barcode(loops=bars)
     with pytest.raises(ph.DataError, match="found 2 of 3"):
         ph.join_parts([ph.image_part(VOLUME, i, 3, loops=True) for i in (0, 1)]).barcode(loops=bars)

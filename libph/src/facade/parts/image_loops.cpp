@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "ph/parts/image_loops.hpp"
 
+#include <fmt/format.h>
+
 #include <concepts>
 #include <optional>
 #include <utility>
@@ -69,7 +71,11 @@ void ImageLoops::begin(std::span<const std::byte> told) {
         ErrorKind::bad_data,
         "data for the loops of a part: found extents, type, options or number of parts that "
         "differ from those of the part, expected data for the same image");
-  if (from.get<std::int32_t>("part") != state_->part) from.refuse("number of a part");
+  if (const auto part = from.get<std::int32_t>("part"); part != state_->part)
+    throw Error(
+        ErrorKind::bad_data,
+        fmt::format("data for the loops of a part: found data for part {}, expected part {}", part,
+                    state_->part));
   FreeCells free(&state_->context.memory);
   const auto get = [&](std::pmr::vector<GridCell>& cells, std::size_t in_star) {
     constexpr std::size_t bytes_of_cell = 12;

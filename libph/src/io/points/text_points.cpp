@@ -247,9 +247,11 @@ Points read_points(const Input& input, const ReadOptions& options) {
   if (detail::is_npy(input) || detail::is_npz(input)) {
     const Image array = detail::read_npy_array(input);
     if (array.dim() != 2) {
-      input.fail({"not a set of points", fmt::format("an array of {} dimensions", array.dim()),
-                  "2: one point per row",
-                  array.dim() == 1 ? "a[:, None] has one number per row" : ""});
+      input.fail(
+          {"not a set of points",
+           fmt::format("an array of {} dimension{}", array.dim(), array.dim() == 1 ? "" : "s"),
+           "2 dimensions, with one point per row",
+           array.dim() == 1 ? "a[:, None] has one number per row" : ""});
     }
     if (array.values.empty() && array.extents[0] > 0) {
       input.fail({"points without coordinates",

@@ -14,7 +14,7 @@ __all__ = ["bottleneck_distance", "wasserstein_distance"]
 
 
 class _WidthError(UsageError, TypeError):
-    """GUDHI raises TypeError if rows are not birth, death."""
+    """The rows of a diagram are not pairs (birth, death). GUDHI raises TypeError for it."""
 
 
 def bottleneck_distance(X: Any, Y: Any, delta: float = 0.01) -> float:
