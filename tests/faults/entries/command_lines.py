@@ -187,7 +187,7 @@ SEGMENT = [
     (49, ["-o", "x.obj"], "found x.obj, expected a file name that ends in .pcd or .ply"),
     (50, ["--distance"], "--distance"),
     (50, ["--voxle", "0.1"], "did you mean '--voxel'"),
-    (50, ["another.pcd"], r"found '\S+', expected a folder \(FOLDER/\) or a \*"),
+    (50, ["another.pcd"], "found 'out.pcd', expected a folder (FOLDER/) or a *"),
 ]
 
 

@@ -150,7 +150,7 @@ def beyond_int64():
     yield refused(34, "ply", "2^63 - 1 vertices", ply("binary_little_endian", TOP), "truncated")
     yield refused(34, "off", "vertices", OFF.format(word, 0), "number of vertices out of range")
     yield refused(34, "pts", "points", f"{word}\n0 0 1\n", "number of points out of range")
-    yield refused(34, "npy", "shape", shape(f"({word},)"), "a number above 2\\^63")
+    yield refused(34, "npy", "shape", shape(f"({word},)"), "a number out of the range of int64")
     yield refused(34, "npy", "2^63 - 1", shape(f"({TOP},)"), "truncated")
     yield refused(34, "npy", "header length", b"\x93NUMPY\2\0" + b"\xff" * 4 + b"{}", "truncated")
     yield refused(34, "dipha", "2^63 - 1 values", dipha(1, TOP, 1, TOP, 0.), "number of values")
