@@ -193,7 +193,7 @@ def test_the_number_of_clusters(rng):
         between = lengths[wanted] if wanted < len(lengths) else 0.0
         same_as = PersistenceClustering(8, min_persistence=between).fit(X)
         assert np.array_equal(found.labels_, same_as.labels_)
-    with pytest.warns(sklearn.exceptions.ConvergenceWarning, match="found 999, but the density has"):
+    with pytest.warns(sklearn.exceptions.ConvergenceWarning, match="found 999, expected at most"):
         assert PersistenceClustering(8, n_clusters=999).fit(X).n_clusters_ == len(lengths)
 
 

@@ -179,7 +179,7 @@ CALLS = [(room, text, expected, words) for room, rows in {
         ("c.distances()", "=", "10 bars"), ("c.distances(None)", "USAGE", "lower: found NULL"),
         ("c.distances(has_out=False)", "USAGE", "out: found NULL"),
         ("c.distances(None, 1)", "=", "1 bars"), ("c.distances(None, 0)", "=", "0 bars"),
-        ("c.distances(size=-1)", "USAGE", "negative"), ("c.distances(size=2**31 + 1)", "USAGE", "2.31"),
+        ("c.distances(size=-1)", "USAGE", "found -1 points"), ("c.distances(size=2**31 + 1)", "USAGE", "2.31"),
         ("c.distances(size=2**62)", "USAGE", "2.31"), ("c.distances(None, 2**31)", "USAGE", "found NULL"),
         ("c.distances(size=10**6, memory_limit=10**6)", "RESOURCE", "memory limit"),
         ("c.distances(with_number(DISTANCES, 3, nan), max_dim=-2)", "USAGE", "max_dim: found -2"),

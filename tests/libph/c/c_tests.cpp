@@ -194,7 +194,7 @@ TEST(CInterface, SaysWhatIsWrong) {
   expect(PH_USAGE, ph_rips_points(nullptr, 3, 1, 1, 1, nullptr, &bars), "data");
   expect(PH_USAGE, ph_rips_points(points, -1, 1, 1, 1, nullptr, &bars), "found -1 rows");
   expect(PH_USAGE, ph_rips_points(points, 2, 1, 1, 1, nullptr, nullptr), "out");
-  expect(PH_USAGE, ph_rips_distances(points, -1, nullptr, &bars), "negative");
+  expect(PH_USAGE, ph_rips_distances(points, -1, nullptr, &bars), "found -1 points");
   const std::int64_t extents[] = {3}, huge[] = {INT64_MAX};
   expect(PH_BAD_DATA, ph_cubical_image(points, PH_FLOAT64, 1, extents, nullptr, nullptr, &bars),
          "nan");

@@ -303,7 +303,7 @@ TEST(ReadNpyCloud, TakesPointsAndOrganisedPoints) {
       {npy("<f4", "(3, 2)", six), "save its transpose"},
       {npy<double>("<f8", "(3, 100)", std::vector<double>(300)), "save its transpose"},
       {npy<double>("<f8", "(70, 80)", std::vector<double>(5600)), "camera or intrinsics"},
-      {npy("<f4", "(6,)", six), "found shape (6), expected (points, 3)"},
+      {npy("<f4", "(6,)", six), "found shape (6), expected (points, n)"},
       {npy<std::int32_t>("<i4", "(1, 3)", {1, 2, 3}), "found whole numbers, expected floats"},
       {npy<double>("<f8", "(1, 3)", {1, 2, HUGE_VAL}), "infinite coordinate of point 0"},
       {npy<float>("<f4", "(0, 3)", {}), "no points"},
