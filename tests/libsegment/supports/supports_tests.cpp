@@ -303,11 +303,13 @@ TEST(Containers, ABinIsOneSegment) {
 TEST(Containers, PartsOfOneVoxelAreNone) {
   // A plane and single points in front of it, each of which is a part.
   std::vector<float> xyz;
-  for (int i = -40; i < 40; ++i)
-    for (int k = -40; k < 40; ++k)
+  for (int i = -70; i < 70; ++i)
+    for (int k = -70; k < 70; ++k)
       xyz.insert(xyz.end(), {0.004F * static_cast<float>(i), 0.004F * static_cast<float>(k), 1});
   for (int i = 0; i < 5; ++i) xyz.insert(xyz.end(), {0.04F * static_cast<float>(i), 0, 0.9F});
-  const Segmentation s = segment(CloudView{xyz, {}}, {.min_size = 1, .min_part = 1});
+  const Segmentation s =
+      segment(CloudView{xyz, {}}, {.voxel = 0.005, .min_size = 1, .min_part = 1});
+  ASSERT_TRUE(s.tree.plane);
   EXPECT_EQ(s.cut.segments.size(), 5U);
   for (const Segment& segment : s.cut.segments) EXPECT_EQ(segment.role, Role::object);
 }
