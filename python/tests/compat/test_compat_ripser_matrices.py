@@ -86,7 +86,7 @@ def test_a_diagonal_that_is_stored_twice():
         matrix = sparse.coo_matrix(([same_births, same_births, 1.0], places), shape=(2, 2))
         assert len(of_matrix(matrix)["dgms"][0]) > 0
     differ = sparse.coo_matrix(([0.5, 0.7, 1.0], places), shape=(2, 2))
-    with pytest.raises(ph.DataError, match="row 0, column 0: found 0.5 and 0.7, expected both"):
+    with pytest.raises(ph.DataError, match="row 0, column 0: found 0.5 and 0.7, expected equal values"):
         of_matrix(differ)
 
 
