@@ -39,7 +39,7 @@ struct Scene {
   Cleared points;
   std::optional<LowerSupport> lower;  ///< the support below the plane, if there is one
   std::vector<Index> lower_strip;     ///< points in the strip of the lower plane
-  std::vector<Index> before_walls;    ///< points.beyond with the points of the walls
+  std::vector<Index> before_walls;    ///< points.beyond before walls were removed; empty: no wall
 };
 
 /// The graph that a method makes of a scene. The vertices of `grid` belong to `points`.

@@ -2,7 +2,6 @@
 // W. J. Beksi and N. Papanikolopoulos, 3D Point Cloud Segmentation Using Topological Persistence,
 // ICRA 2016. The numbers of sections and algorithms here and in methods.cpp refer to this paper.
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 #include <utility>
 
@@ -22,10 +21,10 @@ namespace ph::segment {
 namespace {
 
 /// The most memory that all stages together need for the points. The data of each point are its
-/// number in four lists of remaining points; its voxel; its number, its vertex and its coordinates
+/// number in five lists of points; its voxel; its number, its vertex and its coordinates
 /// in the tree; a copy of the coordinates, sorted by segment; its label; and its surfaces.
 std::size_t bytes_for_points(const CloudView& cloud) {
-  constexpr std::size_t bytes_per_point = 5 * 8 + 4 + 4 + 12 + 12 + 4 + 2;
+  constexpr std::size_t bytes_per_point = 6 * 8 + 4 + 4 + 12 + 12 + 4 + 2;
   return cloud.size() * bytes_per_point;
 }
 
@@ -66,20 +65,19 @@ void clear_lower_support(const std::vector<Index>& in_range, Scene& scene, Segme
 /// Removes the walls: planes behind which nothing is seen. They go before voxels are made, because
 /// most points of a room are on them.
 void clear_walls(Scene& scene, Segmentation& result) {
-  constexpr double thickness = 0.02;      // half of it, in metres
-  constexpr double largest_cosine = 0.5;  // of the angle with the support
+  constexpr double thickness = 0.02;  // half of it, in metres
   constexpr int most = 4;
   const PlaneMargin margin{thickness, scene.margin.noise};
-  scene.before_walls = scene.points.beyond;
   for (int k = 0; k < most; ++k) {
     const PlaneSearch search = find_plane(scene.cloud, scene.points.beyond, margin);
-    if (!search.plane || std::abs(cosine_between(*search.plane, *scene.plane)) >= largest_cosine ||
+    if (!search.plane || !is_steep(*search.plane, *scene.plane) ||
         !bounds_the_view(*search.plane, scene.cloud))
       return;
     Cleared cleared = remove_plane(scene.cloud, scene.points.beyond, *search.plane, margin);
     result.tree.surfaces.push_back({Role::wall, *search.plane});
     mark(cleared.on, static_cast<std::uint8_t>(result.tree.surfaces.size()),
          result.tree.removed_with);
+    if (scene.before_walls.empty()) scene.before_walls = std::move(scene.points.beyond);
     scene.points.beyond = std::move(cleared.beyond);
   }
 }

@@ -208,6 +208,11 @@ bool bounds_the_view(const Plane& plane, const CloudView& cloud) {
   return share_behind(cloud, plane, kOfWalls) <= kMostBehind;
 }
 
+bool is_steep(const Plane& plane, const Plane& support) {
+  constexpr double largest_cosine = 0.5;
+  return std::abs(cosine_between(plane, support)) < largest_cosine;
+}
+
 double cosine_between(const Plane& a, const Plane& b) {
   return a.normal[0] * b.normal[0] + a.normal[1] * b.normal[1] + a.normal[2] * b.normal[2];
 }

@@ -35,6 +35,10 @@ struct PlaneSearch {
   double noise = 0;
 };
 
+/// The least area of a table or of a board on which things stand, in square metres. It is twice the
+/// area of a large board game.
+inline constexpr double kLeastTable = 0.2;
+
 /// A plane with a smaller share of the points supports nothing.
 inline constexpr double kLeastShareOfSupport = 0.1;
 
@@ -83,6 +87,9 @@ inline constexpr double kMostBehind = 0.01;
 
 /// True if nearly all points of a cloud are on the viewpoint's side of a plane.
 bool bounds_the_view(const Plane& plane, const CloudView& cloud);
+
+/// True if a plane is at more than 60 degrees to the support, as a wall is.
+bool is_steep(const Plane& plane, const Plane& support);
 
 /// The cosine of the angle between two planes, below zero if they face each other.
 double cosine_between(const Plane& a, const Plane& b);

@@ -21,7 +21,6 @@ constexpr double kSide = 0.05;  // the side of a square of a plane, in metres
 constexpr double kReach = 0.1;
 // Points nearer to the plane than this number of margins may belong to the plane itself.
 constexpr double kMargins = 2;
-constexpr double kLeastTable = 0.2;  // square metres
 
 /// The squares of a plane in which the points of a sample are.
 struct Squared {

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "libsegment/src/plane/plane.hpp"
 #include "libsegment/src/plane/squares.hpp"
@@ -42,19 +41,16 @@ double covered_area(const Plane& plane, const Points& centroids, const Voxels& v
 std::vector<SceneSurface> find_bounds(const CloudView& cloud, const Plane& support,
                                       const SceneTree& scene,
                                       const std::vector<Index>& component_of, Index min_size) {
-  // These are cosines of the angle with the support.
-  constexpr double most_of_a_wall = 0.5, least_of_a_board = 0.98;
-  // The area of a board in square metres, which is twice the area of a large board game.
-  constexpr double least_area = 0.2;
+  constexpr double least_of_a_board = 0.98;  // the cosine of the angle with the support
   std::vector<SceneSurface> found;
   for (const Voxels& voxels : voxels_of(number_parts(component_of, min_size))) {
     const auto plane = plane_through(scene.vertices, scene.normals, voxels, cloud.viewpoint);
     if (!plane || plane->share < kLeastShareOnSurface) continue;
     const double cosine = cosine_between(*plane, support);
-    if (std::abs(cosine) < most_of_a_wall && bounds_the_view(*plane, cloud))
+    if (is_steep(*plane, support) && bounds_the_view(*plane, cloud))
       found.push_back({Role::wall, *plane});
     else if (cosine > least_of_a_board &&
-             covered_area(*plane, scene.vertices, voxels, scene.voxel) >= least_area)
+             covered_area(*plane, scene.vertices, voxels, scene.voxel) >= kLeastTable)
       found.push_back({Role::support, *plane});
     if (found.size() == kMostSurfaces / 2) break;
   }

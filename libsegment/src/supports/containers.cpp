@@ -3,7 +3,6 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <numeric>
 #include <optional>
@@ -151,9 +150,8 @@ class Containers {
   }
   /// @param wall an object that touches the floor.
   bool is_wall_of(std::size_t wall, std::size_t floor) const {
-    constexpr double largest_cosine = 0.5;  // of the angle with the support
     const std::optional<Plane>& plane = things_[wall].plane;
-    if (!plane || std::abs(cosine_between(*plane, *scene_.plane)) > largest_cosine) return false;
+    if (!plane || !is_steep(*plane, *scene_.plane)) return false;
     const std::vector<Index>& voxels = things_[floor].voxels;
     return count_behind(*plane, voxels) <= kMostBehind * static_cast<double>(voxels.size());
   }
@@ -193,7 +191,9 @@ std::vector<Container> join_containers(const SceneTree& scene, const Surface& su
         std::ranges::find_if(floors, [&](std::size_t f) { return things.touch(f, k); });
     const std::size_t floor = same == floors.end() ? k : *same;
     if (floor == k) floors.push_back(k);
-    for (const std::size_t part : found->parts) floor_of[part] = floor;
+    for (const std::size_t part : found->parts)
+      if (part == k || (floor_of[part] == part && std::ranges::find(floors, part) == floors.end()))
+        floor_of[part] = floor;  // a part stays in the container in which it is already
     contents[floor].insert(contents[floor].end(), found->objects.begin(), found->objects.end());
   }
   for (std::size_t v = 0; v < object_of.size() && !floors.empty(); ++v)
