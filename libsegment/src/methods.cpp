@@ -12,6 +12,7 @@
 #include "libsegment/src/voxels/base_points.hpp"
 #include "libsegment/src/voxels/rips_graph.hpp"
 #include "libsegment/src/voxels/voxel_pairs.hpp"
+#include "ph/eigen.hpp"
 
 namespace ph::segment {
 
@@ -49,10 +50,12 @@ bool is_too_fine(const Scene& scene, Index voxels, const VoxelPairs& pairs, doub
   return static_cast<double>(half.cells.size()) < of_half * static_cast<double>(voxels);
 }
 
+// The edge of a voxel per metre of range: two pixels of a camera with 640 columns.
+constexpr double kEdgePerMetre = 0.004;
+
 /// The least edge of a voxel at the range of most points. Depth has steps that grow with the range;
 /// with smaller voxels, they would tear a surface that is seen at a slant.
 double edge_for_range(const Scene& scene) {
-  constexpr double per_metre = 0.004;  // two pixels of a camera with 640 columns
   constexpr double quantile = 0.75;
   const auto& [vx, vy, vz] = scene.cloud.viewpoint;
   std::vector<double> ranges;
@@ -65,7 +68,7 @@ double edge_for_range(const Scene& scene) {
   const auto at = ranges.begin() +
                   static_cast<std::ptrdiff_t>(quantile * static_cast<double>(ranges.size() - 1));
   std::ranges::nth_element(ranges, at);
-  return per_metre * *at;
+  return kEdgePerMetre * *at;
 }
 
 /// The concavity at each voxel, and the normals from which it was computed.
@@ -110,7 +113,7 @@ ConcavityNoise noise_of(const Scene& scene, double voxel, const RunContext& cont
   if (!scene.plane) return {};
   const std::vector<Index> points =
       free_patches(scene.cloud, scene.points.on,
-                   scene.before_walls.empty() ? scene.points.beyond : scene.before_walls,
+                   scene.before.empty() ? scene.points.beyond : scene.before,
                    *scene.plane, side * voxel);
   const VoxelGrid grid = voxel_grid(scene.cloud, points, voxel);
   const VoxelPairs pairs = near_voxels(grid, voxel, context);
@@ -127,6 +130,28 @@ ConcavityNoise noise_of(const Scene& scene, double voxel, const RunContext& cont
     values.push_back(relief.concavity[v]);
   }
   return {ranges, values};
+}
+
+/// Joins voxels that lie behind each other and are not adjacent, because the noise of depth tears a
+/// distant surface into layers. @param pairs pairs of voxels that are near each other.
+void add_edges_along_rays(const Scene& scene, const VoxelGrid& grid, const VoxelPairs& pairs,
+                          double voxel, double least_range, std::vector<WeightedEdge>& edges) {
+  constexpr double deviations = 2;
+  const double radius = kAdjacent * voxel;
+  const Eigen::Vector3d eye(scene.cloud.viewpoint.data());
+  const auto place = [&](std::uint32_t v) -> Eigen::Vector3d {
+    return as_matrix(grid.centroids).row(v).transpose();
+  };
+  for (const VoxelPair& pair : pairs) {
+    if (pair.distance < radius) continue;
+    const Eigen::Vector3d ray = place(pair.u) - eye, step = place(pair.v) - place(pair.u);
+    const double square_of_range = ray.squaredNorm();
+    if (square_of_range < least_range * least_range) continue;
+    const double along = std::abs(step.dot(ray)) / std::sqrt(square_of_range);
+    if (along < deviations * scene.noise * square_of_range &&
+        step.squaredNorm() - along * along < radius * radius)
+      edges.push_back({pair.v, pair.u, pair.distance});
+  }
 }
 
 }  // namespace
@@ -154,8 +179,8 @@ VoxelFiltration surface_filtration(const Scene& scene, const SegmentOptions& opt
     if (scene.plane) {
       assign_base_points(scene.cloud, scene.points.strip, *scene.plane, scene.margin,
                          kSquareOfBase * voxel, points, grid);
-      if (scene.lower)
-        assign_base_points(scene.cloud, scene.lower_strip, scene.lower->plane, scene.lower->margin,
+      for (const OtherSupport& other : scene.others)
+        assign_base_points(scene.cloud, other.strip, other.plane, other.margin,
                            kSquareOfBase * voxel, points, grid);
     }
     clock.finish("voxel grid", grid.centroids.rows());
@@ -182,6 +207,8 @@ VoxelFiltration surface_filtration(const Scene& scene, const SegmentOptions& opt
   for_each_within(pairs, kAdjacent * voxel, [&](const VoxelPair& p) {
     edges.push_back({p.v, p.u, p.distance});
   });
+  if (options.method == Method::surface && scene.noise > 0)
+    add_edges_along_rays(scene, grid, pairs, voxel, options.voxel_size() / kEdgePerMetre, edges);
   if (options.method == Method::supervoxels)
     values = distance_to_seeds(grid.centroids, edges, values, options.spacing, context);
   FilteredGraph graph = FilteredGraph::lower_star(values, edges, context);

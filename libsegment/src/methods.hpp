@@ -29,17 +29,25 @@ class StageClock {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
+/// A support that was removed, with the points of its strip (see Cleared).
+struct OtherSupport {
+  Plane plane;
+  PlaneMargin margin;
+  std::vector<Index> strip;
+};
+
 /// A cloud and its supporting plane. `points` contains the points in range, divided by the plane.
 /// Without a plane, all points are in `points.beyond`.
 struct Scene {
   CloudView cloud;
   std::optional<Plane> plane;
   PlaneMargin margin;
+  double noise = 0, range = 0;  ///< PlaneSearch::noise_along and PlaneSearch::range of the plane
   std::vector<Index> in_range;  ///< all points in range, if there is a plane
   Cleared points;
-  std::optional<LowerSupport> lower;  ///< the support below the plane, if there is one
-  std::vector<Index> lower_strip;     ///< points in the strip of the lower plane
-  std::vector<Index> before_walls;    ///< points.beyond before walls were removed; empty: no wall
+  std::vector<OtherSupport> others;  ///< the supports that were removed in addition to the plane
+  /// points.beyond before boards and walls were removed; empty if there are none
+  std::vector<Index> before;
 };
 
 /// The graph that a method makes of a scene. The vertices of `grid` belong to `points`.

@@ -8,8 +8,10 @@
 #include "libsegment/src/methods.hpp"
 #include "libsegment/src/plane/plane.hpp"
 #include "libsegment/src/plane/projection_centre.hpp"
+#include "libsegment/src/plane/sample.hpp"
 #include "libsegment/src/plane/stages.hpp"
 #include "libsegment/src/scene/options.hpp"
+#include "libsegment/src/supports/surfaces.hpp"
 #include "libsegment/src/tree/cross_check.hpp"
 #include "libsegment/src/vessels/stages.hpp"
 #include "ph/detail/segment/bounds.hpp"
@@ -38,50 +40,6 @@ std::size_t bytes_for_voxels(const VoxelGrid& grid) {
 
 Index count(const std::vector<Index>& points) { return static_cast<Index>(points.size()); }
 
-void mark(const std::vector<Index>& points, std::uint8_t number, std::vector<std::uint8_t>& marks) {
-  for (const Index i : points) marks[static_cast<std::size_t>(i)] = number;
-}
-
-/// Removes a support below the table, such as the floor, but keeps the objects on it. These objects
-/// count like objects on the table. Does nothing if many points are where the table should hide
-/// them. In this case, the viewpoint is wrong, and what seems to be below the table may be above
-/// it.
-void clear_lower_support(const std::vector<Index>& in_range, Scene& scene, Segmentation& result) {
-  // A share; in scenes in their sensor's frame, it is at most 0.03.
-  constexpr double much_hidden = 0.1;
-  if (result.plane_sight.hidden >= much_hidden) return;
-  const CloudView& cloud = scene.cloud;
-  scene.lower = find_lower_support(cloud, in_range, *scene.plane, scene.margin.noise);
-  if (!scene.lower) return;
-  Cleared below = remove_plane(cloud, scene.lower->points, scene.lower->plane, scene.lower->margin);
-  scene.lower_strip = std::move(below.strip);
-  std::vector<Index> both;
-  std::ranges::merge(scene.points.beyond, below.beyond, std::back_inserter(both));
-  scene.points.beyond = std::move(both);
-  mark(below.on, 2, result.tree.removed_with);
-  result.tree.surfaces.push_back({Role::support, scene.lower->plane});
-}
-
-/// Removes the walls: planes behind which nothing is seen. They go before voxels are made, because
-/// most points of a room are on them.
-void clear_walls(Scene& scene, Segmentation& result) {
-  constexpr double thickness = 0.02;  // half of it, in metres
-  constexpr int most = 4;
-  const PlaneMargin margin{thickness, scene.margin.noise};
-  for (int k = 0; k < most; ++k) {
-    const PlaneSearch search = find_plane(scene.cloud, scene.points.beyond, margin);
-    if (!search.plane || !is_steep(*search.plane, *scene.plane) ||
-        !bounds_the_view(*search.plane, scene.cloud))
-      return;
-    Cleared cleared = remove_plane(scene.cloud, scene.points.beyond, *search.plane, margin);
-    result.tree.surfaces.push_back({Role::wall, *search.plane});
-    mark(cleared.on, static_cast<std::uint8_t>(result.tree.surfaces.size()),
-         result.tree.removed_with);
-    if (scene.before_walls.empty()) scene.before_walls = std::move(scene.points.beyond);
-    scene.points.beyond = std::move(cleared.beyond);
-  }
-}
-
 /// The points in range that are above the supporting plane. The plane is also stored in the result.
 Scene clear_scene(const CloudView& cloud, const SegmentOptions& options, StageClock& clock,
                   Segmentation& result) {
@@ -101,22 +59,27 @@ Scene clear_scene(const CloudView& cloud, const SegmentOptions& options, StageCl
   // Section VI of the paper: "we find all points that correspond to a planar model and remove them"
   const bool is_paper = options.method == Method::paper;
   if (!is_paper) scene.margin.noise = options.noise_floor();
-  PlaneSearch search =
-      (is_paper ? find_plane : find_support)(cloud, in_range, scene.margin, options.plane_guess);
+  const Sample sample = draw_sample(cloud, in_range, scene.margin);
+  SupportSearch search =
+      is_paper ? SupportSearch{find_plane(sample, cloud.viewpoint, options.plane_guess), {}}
+               : find_support(cloud, sample, options.plane_guess);
+  PlaneSearch& support = search.support;
   if (!is_paper && options.plane_noise > 0) {
     constexpr double deviations = 4;
-    scene.margin.noise = std::max(scene.margin.noise, deviations * search.noise);
+    scene.margin.noise = std::max(scene.margin.noise, deviations * support.noise);
   }
-  result.tree.plane = scene.plane = search.plane;
-  result.plane_note = std::move(search.note);
+  scene.noise = support.noise_along;
+  scene.range = support.range;
+  result.tree.plane = scene.plane = support.plane;
+  result.plane_note = std::move(support.note);
   if (scene.plane) {
     result.plane_sight = sight_past(cloud, in_range, *scene.plane, scene.margin);
-    scene.points = remove_plane(cloud, in_range, *scene.plane, scene.margin);
-    mark(scene.points.on, 1, result.tree.removed_with);
-    result.tree.surfaces.push_back({Role::support, *scene.plane});
     if (options.method == Method::surface) {
-      clear_lower_support(in_range, scene, result);
-      clear_walls(scene, result);
+      clear_surfaces(in_range, search.others, sample, result.plane_sight, scene, result.tree);
+    } else {
+      scene.points = remove_plane(cloud, in_range, *scene.plane, scene.margin);
+      result.tree.surfaces.push_back({Role::support, *scene.plane});
+      for (const Index i : scene.points.on) result.tree.removed_with[static_cast<std::size_t>(i)] = 1;
     }
     result.tree.removed = std::ssize(result.tree.surfaces);
     scene.in_range = std::move(in_range);

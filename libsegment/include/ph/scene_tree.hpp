@@ -56,14 +56,22 @@ enum class Role {
   object = 0,
   support = 1,  ///< a plane that objects stand on: a table, a board, the floor
   wall = 2,  ///< a plane that hides everything behind it: a wall, the back or the side of a cabinet
-  container = 3  ///< a segment with at least three objects in it, such as a bin
+  container = 3,  ///< a segment with at least three objects in it, such as a bin
+  floor = 4,      ///< the lowest support of several, below which nothing is seen
+  shelf = 5,      ///< a support with another support above or below it, other than the floor
+  ceiling = 6     ///< a plane that faces the support and hides everything behind it
 };
 /// The names of the roles, by number.
-inline constexpr std::array<std::string_view, 4> kRoleNames = {"object", "support", "wall",
-                                                               "container"};
+inline constexpr std::array<std::string_view, 7> kRoleNames = {
+    "object", "support", "wall", "container", "floor", "shelf", "ceiling"};
 
 constexpr std::string_view role_name(Role role) {
   return kRoleNames[static_cast<std::size_t>(role)];
+}
+
+/// True if objects may stand on a surface of this role.
+constexpr bool is_support(Role role) {
+  return role == Role::support || role == Role::floor || role == Role::shelf;
 }
 
 /// A plane that bounds a scene. It is not a segment.

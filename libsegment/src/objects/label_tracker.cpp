@@ -139,7 +139,7 @@ void LabelTracker::settle(const SceneTree& scene, const SceneCut& cut,
         standing.on = segment.on;
     } else if (const std::uint32_t s = standing.on.surface;
                s > scene.surfaces.size() ||
-               (s != 0 && scene.surfaces[s - 1].role != Role::support)) {
+               (s != 0 && !is_support(scene.surfaces[s - 1].role))) {
       standing.on = segment.on;
     }
     standings_.push_back(standing);

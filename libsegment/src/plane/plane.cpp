@@ -17,6 +17,9 @@ constexpr std::size_t kScored = 1024;  // the number of points that score a hypo
 // 99.96 %.
 constexpr int kHypotheses = 500;
 constexpr int kRefits = 4;
+// The search uses twice the thickness, because a plane through three noisy points is rarely exact
+// to a millimetre.
+constexpr double kOfSearch = 2;
 
 struct Candidate {
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
@@ -81,6 +84,26 @@ std::optional<Candidate> best_hypothesis(const Sample& sample, double margins,
   return best;
 }
 
+/// The best of the planes with a given normal, one through each of some points of the sample. Empty
+/// if the viewpoint is in front of none of them.
+std::optional<Candidate> best_parallel(const Sample& sample, double margins,
+                                       const Eigen::Vector3d& normal,
+                                       const Eigen::Vector3d& viewpoint) {
+  const std::size_t scored = std::min(sample.size(), kScored);
+  std::optional<Candidate> best;
+  double best_cost = kInfinity;
+  for (std::size_t i = 0; i < std::min<std::size_t>(scored, kHypotheses); ++i) {
+    const Candidate plane{normal, -normal.dot(sample[i])};
+    if (!(normal.dot(viewpoint) + plane.offset > 0)) continue;
+    const double cost = cost_of(plane, sample, scored, margins, best_cost);
+    if (cost < best_cost) {
+      best_cost = cost;
+      best = plane;
+    }
+  }
+  return best;
+}
+
 /// The least-squares plane of the points within `margins` margins of a plane. Empty if these points
 /// are collinear. The sum is repeatable, because it follows the order of the sample.
 std::optional<Candidate> refit(const Candidate& plane, const Sample& sample, double margins) {
@@ -105,6 +128,12 @@ std::optional<Candidate> refit(const Candidate& plane, const Sample& sample, dou
   return Candidate{normal, -normal.dot(mean)};
 }
 
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::ranges::nth_element(values, middle);
+  return *middle;
+}
+
 double share_of(const Candidate& plane, const Sample& sample) {
   std::size_t inliers = 0;
   for (std::size_t i = 0; i < sample.size(); ++i)
@@ -123,57 +152,78 @@ std::optional<Candidate> as_good_as_before(const std::optional<Plane>& guess,
                                                                    : std::nullopt;
 }
 
-/// Computes PlaneSearch::noise. Points more than some margins behind the plane belong to another
-/// surface.
-double noise_of(const Candidate& plane, const Sample& sample, const Eigen::Vector3d& viewpoint) {
+/// Computes PlaneSearch::noise and PlaneSearch::noise_along. Points more than some margins behind
+/// the plane belong to another surface.
+void measure_noise(const Candidate& plane, const Sample& sample, const Eigen::Vector3d& viewpoint,
+                   PlaneSearch& search) {
   constexpr double margins = 6;
   constexpr std::size_t fewest = 30;
   constexpr double median_of_half_normal = 0.6745;  // in standard deviations
-  std::vector<double> depths;
+  const double height = plane.normal.dot(viewpoint) + plane.offset;
+  std::vector<double> across, along;
   for (std::size_t i = 0; i < sample.size(); ++i) {
     const double depth = -plane.signed_distance(sample, i);
-    if (depth > 0 && depth < margins * sample.limits[i])
-      depths.push_back(depth / (sample[i] - viewpoint).squaredNorm());
+    if (!(depth > 0 && depth < margins * sample.limits[i])) continue;
+    const double range = (sample[i] - viewpoint).norm();
+    across.push_back(depth / (range * range));
+    along.push_back(depth / (range * height));
   }
-  if (depths.size() < fewest) return 0;
-  const auto middle = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2);
-  std::ranges::nth_element(depths, middle);
-  return *middle / median_of_half_normal;
+  if (across.size() < fewest) return;
+  search.noise = median(std::move(across)) / median_of_half_normal;
+  search.noise_along = median(std::move(along)) / median_of_half_normal;
+}
+
+/// The plane that a hypothesis becomes by refits.
+PlaneSearch search_from(Candidate found, const Sample& sample, const Eigen::Vector3d& viewpoint,
+                        double least_share) {
+  for (int i = 0; i < kRefits; ++i)
+    if (const auto better = refit(found, sample, i == 0 ? kOfSearch : 1)) found = *better;
+  const double share = share_of(found, sample);
+  if (share < least_share) {
+    return {
+        std::nullopt,
+        fmt::format("no plane: the largest candidate holds {:.1f} % of the points in range, less "
+                    "than {:.0f} %",
+                    100 * share, 100 * least_share)};
+  }
+  const Candidate plane = facing(found, viewpoint);
+  const Eigen::Vector3d& n = plane.normal;
+  PlaneSearch search{Plane{{n.x(), n.y(), n.z()}, plane.offset, share}, ""};
+  measure_noise(plane, sample, viewpoint, search);
+  std::vector<double> ranges;
+  for (std::size_t i = 0; i < sample.size(); ++i)
+    if (std::abs(plane.signed_distance(sample, i)) <= sample.limits[i])
+      ranges.push_back((sample[i] - viewpoint).norm());
+  if (!ranges.empty()) search.range = median(std::move(ranges));
+  return search;
 }
 
 }  // namespace
 
 PlaneSearch find_plane(const CloudView& cloud, const std::vector<Index>& points,
                        const PlaneMargin& margin, const std::optional<Plane>& guess) {
-  if (points.size() < 3) return {std::nullopt, "no plane: fewer than three points in range"};
-  const Sample sample = draw_sample(cloud, points, margin);
-  const Eigen::Vector3d viewpoint(cloud.viewpoint.data());
-  // The search uses twice the thickness, because a plane through three noisy points is rarely exact
-  // to a millimetre.
-  constexpr double of_search = 2;
+  return find_plane(draw_sample(cloud, points, margin), cloud.viewpoint, guess);
+}
+
+PlaneSearch find_plane(const Sample& sample, const Vec3& viewpoint,
+                       const std::optional<Plane>& guess) {
+  // Points at the same place count once in a sample.
+  if (sample.size() < 3) return {std::nullopt, "no plane: fewer than three points in range"};
+  const Eigen::Vector3d eye(viewpoint.data());
   std::optional<Candidate> found = as_good_as_before(guess, sample);
-  if (!found) found = best_hypothesis(sample, of_search, viewpoint);
+  if (!found) found = best_hypothesis(sample, kOfSearch, eye);
   if (!found) return {std::nullopt, "no plane: the points in range lie on a line or at one point"};
-  for (int i = 0; i < kRefits; ++i)
-    if (const auto better = refit(*found, sample, i == 0 ? of_search : 1)) found = better;
-  const double share = share_of(*found, sample);
-  if (share < kLeastShareOfSupport) {
-    return {
-        std::nullopt,
-        fmt::format("no plane: the largest candidate holds {:.1f} % of the points in range, less "
-                    "than {:.0f} %",
-                    100 * share, 100 * kLeastShareOfSupport)};
-  }
-  const Candidate plane = facing(*found, viewpoint);
-  const Eigen::Vector3d& n = plane.normal;
-  return {Plane{{n.x(), n.y(), n.z()}, plane.offset, share}, "",
-          noise_of(plane, sample, viewpoint)};
+  return search_from(*found, sample, eye, kLeastShareOfSupport);
+}
+
+PlaneSearch find_parallel(const Plane& like, const Sample& sample, const Vec3& viewpoint) {
+  const Eigen::Vector3d eye(viewpoint.data());
+  const auto found = best_parallel(sample, kOfSearch, Eigen::Vector3d(like.normal.data()), eye);
+  return found ? search_from(*found, sample, eye, 0) : PlaneSearch{};
 }
 
 Cleared remove_plane(const CloudView& cloud, const std::vector<Index>& points, const Plane& plane,
                      const PlaneMargin& margin) {
-  // The share of the margin that is left out of the strip.
-  constexpr double lowest_share = 0.2;
   Cleared cleared;
   cleared.on.reserve(points.size());  // only the memory that is written is touched
   for (const Index i : points) {
@@ -184,7 +234,7 @@ Cleared remove_plane(const CloudView& cloud, const std::vector<Index>& points, c
       cleared.beyond.push_back(i);
     } else if (height >= -limit) {
       cleared.on.push_back(i);
-      if (height > lowest_share * limit) cleared.strip.push_back(i);
+      if (is_in_strip(height, limit)) cleared.strip.push_back(i);
     }
   }
   return cleared;

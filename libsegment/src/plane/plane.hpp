@@ -33,11 +33,20 @@ struct PlaneSearch {
   /// that it grows with the square of the range. It is estimated from the points behind the plane,
   /// where there are no objects. It is 0 if these points are too few.
   double noise = 0;
+  /// As `noise`, but of the depths along the rays, which meet the plane at a slant.
+  double noise_along = 0;
+  double range = 0;  ///< the median distance of the plane's points from the viewpoint, in metres
 };
 
 /// The least area of a table or of a board on which things stand, in square metres. It is twice the
 /// area of a large board game.
 inline constexpr double kLeastTable = 0.2;
+
+/// The thickest board of a table or a shelf, in metres. Below its top, the edge may be seen.
+inline constexpr double kThickestBoard = 0.05;
+
+/// Points nearer to a plane than this number of margins may belong to the plane itself.
+inline constexpr double kMarginsOfPlane = 2;
 
 /// A plane with a smaller share of the points supports nothing.
 inline constexpr double kLeastShareOfSupport = 0.1;
@@ -53,13 +62,27 @@ inline constexpr double kLeastShareOfSupport = 0.1;
 PlaneSearch find_plane(const CloudView& cloud, const std::vector<Index>& points,
                        const PlaneMargin& margin, const std::optional<Plane>& guess = {});
 
+struct Sample;
+/// Finds the plane with the most points of a sample. @param guess as above.
+PlaneSearch find_plane(const Sample& sample, const Vec3& viewpoint,
+                       const std::optional<Plane>& guess = {});
+/// Finds the plane with the most points among those that are parallel to another plane and face the
+/// viewpoint as it does. The refits may turn the plane a little.
+PlaneSearch find_parallel(const Plane& like, const Sample& sample, const Vec3& viewpoint);
+
+/// The supporting plane, and other large planes that are not faces of objects.
+struct SupportSearch {
+  PlaneSearch support;
+  std::vector<Plane> others;
+};
+
 /// Finds the supporting plane. It is the largest plane, unless nothing is seen behind it. Such a
-/// plane may be a wall; of this plane and the next largest ones, the support is then the plane on
-/// which most things stand. There is no support if the surface goes on behind the largest plane,
-/// which is then a face of an object. There is also none if this plane is smaller than a table and
-/// nothing is in front of it. Parameters as for find_plane.
-PlaneSearch find_support(const CloudView& cloud, const std::vector<Index>& points,
-                         const PlaneMargin& margin, const std::optional<Plane>& guess = {});
+/// plane may be a wall; of this plane and the next largest ones, the support is then the plane that
+/// most things touch from above. There is no support if the surface goes on behind the largest
+/// plane, which is then a face of an object. There is also none if this plane is smaller than a
+/// table and nothing stands on it. @param guess as for find_plane.
+SupportSearch find_support(const CloudView& cloud, const Sample& sample,
+                           const std::optional<Plane>& guess = {});
 
 /// The points in range, divided by a plane.
 struct Cleared {
@@ -70,6 +93,12 @@ struct Cleared {
   /// which look like the plane itself.
   std::vector<Index> strip;
 };
+
+/// True if a point on a plane belongs to Cleared::strip.
+inline bool is_in_strip(double height, double margin) {
+  constexpr double lowest_share = 0.2;  // of the margin, is left out of the strip
+  return height > lowest_share * margin;
+}
 
 /// Removes the points on the plane or behind it (such as the floor beyond a table's edge, or
 /// reflections), because they stand on nothing. All lists are in the order of `points`.
@@ -87,6 +116,9 @@ inline constexpr double kMostBehind = 0.01;
 
 /// True if nearly all points of a cloud are on the viewpoint's side of a plane.
 bool bounds_the_view(const Plane& plane, const CloudView& cloud);
+
+/// The least cosine of the angle between planes that count as parallel.
+inline constexpr double kLeastOfParallel = 0.98;
 
 /// True if a plane is at more than 60 degrees to the support, as a wall is.
 bool is_steep(const Plane& plane, const Plane& support);

@@ -58,13 +58,19 @@ Sample draw_sample(const CloudView& cloud, const std::vector<Index>& points,
   if (drawn.size() > kSample) drawn.resize(kSample);
   Sample sample;
   for (const Drawn& d : drawn) {
-    sample.x.push_back(d.x);
-    sample.y.push_back(d.y);
-    sample.z.push_back(d.z);
     const float p[] = {d.x, d.y, d.z};
-    sample.limits.push_back(margin(cloud, p));
+    sample.add({d.x, d.y, d.z}, margin(cloud, p));
   }
   return sample;
+}
+
+Sample points_off(const Plane& plane, double margins, const Sample& sample) {
+  Sample off;
+  for (std::size_t i = 0; i < sample.size(); ++i) {
+    const double height = plane.signed_distance(sample.x[i], sample.y[i], sample.z[i]);
+    if (std::abs(height) > margins * sample.limits[i]) off.add(sample[i], sample.limits[i]);
+  }
+  return off;
 }
 
 }  // namespace ph::segment

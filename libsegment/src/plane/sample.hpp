@@ -15,6 +15,12 @@ struct Sample {
   std::vector<double> limits;  ///< the margin of a plane at each point, in metres
   std::size_t size() const { return x.size(); }
   Eigen::Vector3d operator[](std::size_t i) const { return {x[i], y[i], z[i]}; }
+  void add(const Eigen::Vector3d& p, double limit) {
+    x.push_back(p.x());
+    y.push_back(p.y());
+    z.push_back(p.z());
+    limits.push_back(limit);
+  }
 };
 
 /// Draws a random sample in random order that depends only on the set of points: the distinct
@@ -22,6 +28,9 @@ struct Sample {
 /// of a sample, all points are taken. @param points indices into the cloud.
 Sample draw_sample(const CloudView& cloud, const std::vector<Index>& points,
                    const PlaneMargin& margin);
+
+/// The points of a sample that are farther from a plane than `margins` times their limit.
+Sample points_off(const Plane& plane, double margins, const Sample& sample);
 
 /// Mixes the bits of a word by the finaliser of splitmix64 (Steele, Lea & Flood 2014).
 std::uint64_t mix(std::uint64_t x);

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "libsegment/src/plane/plane.hpp"
+#include "libsegment/src/scene/outline.hpp"
 #include "libsegment/src/scene/parts.hpp"
 #include "libsegment/src/supports/planar.hpp"
 #include "libsegment/src/vessels/upper_end.hpp"
@@ -19,8 +20,6 @@
 namespace ph::segment {
 namespace {
 
-using Outline = std::vector<Eigen::Vector2d>;
-
 /// An object, upright: z is the height above the support.
 struct Thing {
   std::vector<Index> voxels;
@@ -29,30 +28,6 @@ struct Thing {
   double top = 0, bottom = 0;
   std::optional<Plane> plane;  ///< the plane on which nearly all of it lies
 };
-
-double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
-
-/// The convex hull of some points, counterclockwise (A. M. Andrew, Another efficient algorithm for
-/// convex hulls in two dimensions, 1979).
-Outline hull_of(Outline points) {
-  if (points.size() < 3) return points;
-  std::ranges::sort(points, {}, [](const Eigen::Vector2d& p) { return std::pair(p.x(), p.y()); });
-  Outline hull;
-  for (int side = 0; side < 2; ++side) {
-    const std::size_t first = hull.size();
-    for (const Eigen::Vector2d& p : points) {
-      while (hull.size() >= first + 2 &&
-             cross(hull.back() - hull[hull.size() - 2], p - hull.back()) <= 0)
-        hull.pop_back();
-      hull.push_back(p);
-    }
-    hull.pop_back();
-    std::ranges::reverse(points);
-  }
-  return hull;
-}
 
 /// @param hull at least three points.
 bool is_inside(const Outline& hull, const Eigen::Vector2d& p) {

@@ -8,8 +8,12 @@
 #include <utility>
 #include <vector>
 
+#include "libsegment/src/plane/plane.hpp"
+
 namespace ph::segment {
 namespace {
+
+constexpr Index kFewest = 10;  // the number of points, or of pairs of voxels, that show a contact
 
 /// The number of points of each segment that are as low as a support. The distance of these points
 /// from the support is at most two voxels plus a margin. The margin grows with the square of the
@@ -35,7 +39,7 @@ std::vector<std::uint8_t> boards_of(const SceneTree& scene, const SceneCut& cut)
   std::vector<std::uint8_t> boards(scene.cells.size());
   for (std::size_t k = 0; k < scene.points.size(); ++k) {
     const std::uint8_t number = cut.surface_labels[static_cast<std::size_t>(scene.points[k])];
-    if (number > scene.removed && scene.surfaces[number - 1U].role == Role::support)
+    if (number > scene.removed && is_support(scene.surfaces[number - 1U].role))
       boards[scene.vertex_of_point[k]] = number;
   }
   return boards;
@@ -47,19 +51,62 @@ struct Contact {
   double heights = 0;  // the sum of the heights of the pairs
 };
 
-/// The height of the lower end of each segment. One voxel in fifty is ignored, because it may be
-/// wrong.
-std::vector<double> lower_ends(const SceneCut& cut, const std::vector<double>& heights) {
-  constexpr std::size_t outliers = 50;
+/// For each segment, the height below which a share of its voxels lies. The lower end of a segment
+/// is where two voxels in a hundred are lower, because these may be wrong.
+std::vector<double> ends_of(const SceneCut& cut, const std::vector<double>& heights, double share) {
   std::vector<std::vector<double>> of(cut.segments.size() + 1);
   for (std::size_t v = 0; v < heights.size(); ++v) of[cut.vertex_labels[v]].push_back(heights[v]);
   std::vector<double> ends(of.size());
   for (std::size_t label = 1; label < of.size(); ++label) {
-    const auto low = of[label].begin() + static_cast<std::ptrdiff_t>(of[label].size() / outliers);
-    std::ranges::nth_element(of[label], low);
-    ends[label] = *low;
+    const auto rank = static_cast<std::ptrdiff_t>(share * static_cast<double>(of[label].size()));
+    std::ranges::nth_element(of[label], of[label].begin() + rank);
+    ends[label] = of[label][static_cast<std::size_t>(rank)];
   }
   return ends;
+}
+
+/// The height of a removed support above the plane from which heights are measured, near a segment.
+double height_of(const Plane& support, const Plane& from, const Segment& segment) {
+  const auto& [x, y, z] = segment.centroid;
+  return from.signed_distance(x, y, z) - support.signed_distance(x, y, z);
+}
+
+/// Sets what the segments stand on that reach down to removed supports. Of several supports that a
+/// segment reaches, it stands on the one that is nearest to its lower end: the others only cross
+/// its sides.
+void find_removed_supports(const SceneTree& scene, const std::vector<double>& ends, SceneCut& cut) {
+  std::vector<double> nearest(cut.segments.size() + 1, kInfinity);
+  for (Index s = 0; s < scene.removed; ++s) {
+    const SceneSurface& surface = scene.surfaces[static_cast<std::size_t>(s)];
+    if (!is_support(surface.role)) continue;
+    const std::vector<Index> count = points_at(scene, cut, surface.plane);
+    for (Segment& segment : cut.segments) {
+      if (count[segment.label] < kFewest) continue;
+      const double height = height_of(surface.plane, scene.surfaces.front().plane, segment);
+      const double away = std::abs(height - ends[segment.label]);
+      if (away >= nearest[segment.label]) continue;
+      nearest[segment.label] = away;
+      segment.on = {static_cast<std::uint32_t>(s + 1), 0};
+    }
+  }
+}
+
+/// Sets the role of the legs of tables: slender segments that end at the lower side of a support,
+/// where there is a floor.
+void find_legs(const SceneTree& scene, const std::vector<double>& tops, SceneCut& cut) {
+  constexpr double least_slenderness = 3;
+  if (std::ranges::find(scene.surfaces, Role::floor, &SceneSurface::role) == scene.surfaces.end())
+    return;
+  for (const SceneSurface& surface : scene.surfaces) {
+    if (surface.role != Role::support) continue;
+    for (Segment& segment : cut.segments) {
+      const double below = height_of(surface.plane, scene.surfaces.front().plane, segment) -
+                           tops[segment.label];
+      if (below >= 0 && below <= kThickestBoard + 2 * scene.voxel &&
+          segment.oriented_box.size[2] >= least_slenderness * segment.oriented_box.size[0])
+        segment.role = Role::support;
+    }
+  }
 }
 
 }  // namespace
@@ -67,21 +114,15 @@ std::vector<double> lower_ends(const SceneCut& cut, const std::vector<double>& h
 void find_what_it_stands_on(const SceneTree& scene, std::span<const VoxelPair> pairs,
                             SceneCut& cut) {
   if (scene.surfaces.empty()) return;
-  constexpr Index fewest = 10;  // the number of points, or of pairs of voxels
-  for (Index s = scene.removed; s-- > 0;) {
-    const SceneSurface& surface = scene.surfaces[static_cast<std::size_t>(s)];
-    if (surface.role != Role::support) continue;
-    const auto number = static_cast<std::uint32_t>(s + 1);
-    const std::vector<Index> count = points_at(scene, cut, surface.plane);
-    for (Segment& segment : cut.segments)
-      if (count[segment.label] >= fewest) segment.on = {number, 0};
-  }
   const Plane& support = scene.surfaces.front().plane;
   std::vector<double> heights;
   for (Index v = 0; v < scene.vertices.rows(); ++v) {
     const auto p = scene.vertices.row(v);
     heights.push_back(support.signed_distance(p[0], p[1], p[2]));
   }
+  const std::vector<double> ends = ends_of(cut, heights, 0.02);
+  find_removed_supports(scene, ends, cut);
+  find_legs(scene, ends_of(cut, heights, 0.98), cut);
   const std::vector<std::uint8_t> boards = boards_of(scene, cut);
   std::map<std::pair<std::uint32_t, std::uint8_t>, Index> at_boards;
   std::map<std::pair<std::uint32_t, std::uint32_t>, Contact> contacts;
@@ -98,13 +139,12 @@ void find_what_it_stands_on(const SceneTree& scene, std::span<const VoxelPair> p
     contact.heights += (heights[pair.u] + heights[pair.v]) / 2;
   }
   for (const auto& [both, count] : at_boards)
-    if (count >= fewest) cut.segments[both.first - 1].on = {both.second, 0};
+    if (count >= kFewest) cut.segments[both.first - 1].on = {both.second, 0};
   const double reach = 3 * scene.voxel;
-  const std::vector<double> ends = lower_ends(cut, heights);
   std::vector<Index> most(cut.segments.size() + 1);
   const auto stands_on = [&](std::uint32_t upper, std::uint32_t lower, const Contact& contact) {
     Segment& segment = cut.segments[upper - 1];
-    if (segment.on.surface != 0 || contact.pairs < fewest || contact.pairs <= most[upper]) return;
+    if (segment.on.surface != 0 || contact.pairs < kFewest || contact.pairs <= most[upper]) return;
     const double height = contact.heights / static_cast<double>(contact.pairs);
     if (height > ends[upper] + reach || height < ends[lower] + reach) return;
     most[upper] = contact.pairs;

@@ -37,6 +37,7 @@ class FlatMap {
     Slot& slot = slot_of(key);
     return slot.key == key ? &slot.value : nullptr;
   }
+  const Value* find(Key key) const { return const_cast<FlatMap*>(this)->find(key); }
   /// Returns the value of a key, which is created if the key was absent, and true if the key was
   /// absent.
   std::pair<Value*, bool> try_emplace(Key key) {

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+#include "libsegment/src/supports/boards.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace ph::segment {
+
+Board board_of(const CloudView& cloud, const std::vector<Index>& points, const Plane& plane,
+               const PlaneMargin& margin, double range) {
+  constexpr double side = 0.015;  // of a square, in metres; beyond one metre, per metre
+  Board board{plane, margin, Extent(plane, side * std::max(1.0, range))};
+  for (const Index i : points) {
+    const float* p = cloud.point(static_cast<std::size_t>(i));
+    board.extent.add({p[0], p[1], p[2]}, margin(cloud, p));
+  }
+  return board;
+}
+
+bool is_lowest(const Plane& plane, const CloudView& cloud) {
+  constexpr PlaneMargin below{0.05};  // deeper points are below the plane
+  return share_behind(cloud, plane, below) <= kMostBehind;
+}
+
+std::vector<Board> find_boards(const CloudView& cloud, const std::vector<Index>& points,
+                               const Sample& sample, const Plane& support,
+                               const PlaneMargin& margin, std::size_t most) {
+  constexpr int most_times = 8;
+  constexpr double least_share_of_floor = 0.02;
+  constexpr std::size_t fewest = 50;    // points of the sample
+  constexpr double least_step = 0.15;   // metres between parallel boards
+  constexpr double thickness = 0.01;    // half of it, in metres, during the search
+  const Eigen::Vector3d eye(cloud.viewpoint.data()), normal(support.normal.data());
+  std::vector<double> offsets{support.offset};
+  std::vector<Board> boards;
+  Sample rest = points_off(support, kMarginsOfPlane, sample);
+  for (std::size_t i = 0; i < rest.size(); ++i) {
+    // Depth is wrong along the ray, which meets a board at a slant.
+    const Eigen::Vector3d ray = rest[i] - eye;
+    rest.limits[i] = std::max(thickness, margin.noise * ray.norm() * std::abs(normal.dot(ray)));
+  }
+  for (int times = 0; times < most_times && boards.size() < most && rest.size() >= fewest;
+       ++times) {
+    const PlaneSearch search = find_parallel(support, rest, cloud.viewpoint);
+    if (!search.plane) break;
+    const Plane& plane = *search.plane;
+    const double share =
+        plane.share * static_cast<double>(rest.size()) / static_cast<double>(sample.size());
+    rest = points_off(plane, kMarginsOfPlane, rest);
+    const bool is_near = std::ranges::any_of(
+        offsets, [&](double offset) { return std::abs(plane.offset - offset) <= least_step; });
+    if (is_near || cosine_between(plane, support) < kLeastOfParallel) continue;
+    const double height =
+        plane.signed_distance(cloud.viewpoint[0], cloud.viewpoint[1], cloud.viewpoint[2]);
+    Board board = board_of(cloud, points, plane,
+                           {margin.distance, margin.noise * std::min(1.0, height / search.range)},
+                           search.range);
+    // Of a floor, little may be seen beside the support.
+    const bool is_floor = plane.offset > support.offset && share >= least_share_of_floor &&
+                          is_lowest(plane, cloud);
+    if (!is_floor &&
+        (board.extent.area_of_hull() < kLeastTable || board.extent.goes_on_beside()))
+      continue;
+    offsets.push_back(plane.offset);
+    boards.push_back(std::move(board));
+  }
+  return boards;
+}
+
+Cleared remove_board(const CloudView& cloud, const std::vector<Index>& points, const Board& board) {
+  Cleared cleared;
+  for (const Index i : points) {
+    const float* p = cloud.point(static_cast<std::size_t>(i));
+    const double height = board.plane.signed_distance(p[0], p[1], p[2]);
+    const double limit = board.margin(cloud, p);
+    if (height > limit || height < -std::max(limit, kThickestBoard) || !board.extent.is_over(p)) {
+      cleared.beyond.push_back(i);
+    } else {
+      cleared.on.push_back(i);
+      if (is_in_strip(height, limit)) cleared.strip.push_back(i);
+    }
+  }
+  return cleared;
+}
+
+}  // namespace ph::segment
