@@ -26,15 +26,10 @@ from segmentation_metrics import FIRST_OBJECT
 FEWEST = 300  # pixels of an object
 
 
-def frame(kind, seed, sensor=None):
-    """A frame as point_clouds.Scene, and the colours of its points as bytes.
-
-    @param sensor a name of cameras.SENSORS; without it, the seed chooses one."""
-    random = numpy.random.default_rng([list(arrangements.KINDS).index(kind), seed])
-    scene = arrangements.KINDS[kind](random)
-    names = list(cameras.SENSORS)
-    chosen = names[random.integers(len(names))]
-    optics = cameras.SENSORS[sensor or chosen]
+def seen(scene, sensor, random, name):
+    """What a sensor, by its name in cameras.SENSORS, sees of a scene of placing.py: the frame as
+    point_clouds.Scene, and the colours of its points as bytes."""
+    optics = cameras.SENSORS[sensor]
     view = cameras.View.towards(optics, scene.eye, scene.target, random.normal(0, 0.05))
     solids = [(n, solid) for n, thing in enumerate(scene.things) for solid in thing.solids]
     image = cameras.measured(view, cameras.cast(view, solids), random)
@@ -46,9 +41,19 @@ def frame(kind, seed, sensor=None):
         elif numpy.count_nonzero(mask & numpy.isfinite(image.depth)) >= FEWEST:
             labels[mask] = FIRST_OBJECT * (n + 2)
     points = (view.rays() * image.depth[..., None]).astype(numpy.float32).reshape(-1, 3)
-    name = f"{kind}-{seed}"
-    seen = point_clouds.Scene(name, points, labels.ravel(), optics.width, optics.height)
-    return seen, image.colour.astype(numpy.uint8).reshape(-1, 3)
+    frame = point_clouds.Scene(name, points, labels.ravel(), optics.width, optics.height)
+    return frame, image.colour.astype(numpy.uint8).reshape(-1, 3)
+
+
+def frame(kind, seed, sensor=None):
+    """A frame as point_clouds.Scene, and the colours of its points as bytes.
+
+    @param sensor a name of cameras.SENSORS; without it, the seed chooses one."""
+    random = numpy.random.default_rng([list(arrangements.KINDS).index(kind), seed])
+    scene = arrangements.KINDS[kind](random)
+    names = list(cameras.SENSORS)
+    chosen = names[random.integers(len(names))]
+    return seen(scene, sensor or chosen, random, f"{kind}-{seed}")
 
 
 def seeds(text):
