@@ -9,6 +9,7 @@
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <string_view>
 
 namespace ph::segment {
 namespace {
@@ -52,6 +53,22 @@ std::string about_units(const SegmentOptions& o, bool is_depth, const Cloud& clo
   }
   if (farthest >= crumb) return {};
   return fmt::format("all points are within {:.3g} m of the viewpoint; {}", farthest, unit);
+}
+
+/// For results without segments, the number of points that could have formed a segment.
+std::string about_nothing(const SegmentOptions& o, const Segmentation& s) {
+  const auto after = [&](std::string_view name) {
+    const auto stage = std::ranges::find(s.stages, name, &Stage::name);
+    return stage == s.stages.end() ? 0 : stage->points;
+  };
+  const Index in_range = s.stages.front().points, left = after("plane");
+  if (in_range == 0) return {};
+  const std::string rest =
+      s.tree.plane ? fmt::format("{} of the {} points in range are in front of the plane and form",
+                                 left, in_range)
+                   : fmt::format("the {} points in range form", in_range);
+  return fmt::format("no segments: {} no component of {} voxels; see {}", rest, o.cut().min_size,
+                     mark(Setting::min_size));
 }
 
 /// Warns of coordinates so large that the distances between points are lost.
@@ -143,8 +160,10 @@ std::vector<Message> notes(const Segmentation& s, const SegmentOptions& options,
   if (cloud && depth) texts.emplace_back(about_camera(*depth, *cloud));
   if (cloud) texts.emplace_back(about_precision(options, *cloud, s));
   if (cloud) texts.emplace_back(about_viewpoint(options, s));
-  if (cloud && s.cut.segments.empty() && cloud->size() > 0)
+  if (cloud && s.cut.segments.empty() && cloud->size() > 0) {
     texts.emplace_back(about_units(options, depth != nullptr, *cloud, s));
+    texts.emplace_back(about_nothing(options, s));
+  }
   if (cloud && options.plane && !s.tree.plane && s.stages.front().points > 0)
     texts.emplace_back(s.plane_note + "; nothing removed");
   std::erase_if(texts, [](const Message& text) { return text.empty(); });

@@ -15,7 +15,8 @@ struct DepthSource {
 };
 
 /// Warnings that a user should read before trusting the result, one line each: the difference that
-/// the check found, a missing plane, and implausible units, coordinates, cameras or viewpoints.
+/// the check found, a missing plane, the reason for an empty result, and implausible units,
+/// coordinates, cameras or viewpoints.
 /// @param cloud null: a stored tree was cut. @param depth null: the input was not a depth image.
 std::vector<Message> notes(const Segmentation& segmentation, const SegmentOptions& options,
                            const Cloud* cloud, const DepthSource* depth);
