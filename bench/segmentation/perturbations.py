@@ -16,13 +16,31 @@ def without(scene, lost):
     return dataclasses.replace(scene, points=points)
 
 
-def noise(scene, millimetres, generator):
+def with_depth(scene):
+    """The numbers of the points with depth."""
+    return numpy.flatnonzero(numpy.isfinite(scene.points).all(axis=1))
+
+
+def listed(scene, kept):
+    """The points with these numbers, in this order, without rows and columns."""
+    return dataclasses.replace(
+        scene, points=scene.points[kept], truth=scene.truth[kept], width=len(kept), height=1
+    )
+
+
+def along_rays(scene, sigma, generator):
     """Moves each point along its ray such that its depth changes by a normally distributed amount.
-    The standard deviation is `millimetres` at one metre, and grows with depth²."""
+
+    @param sigma the standard deviation of this amount, in metres, as a function of the depth."""
     z = scene.points[:, 2:]
-    sigma = millimetres / 1000 * z**2
-    moved = scene.points * (1 + sigma * generator.standard_normal(z.shape) / z)
+    moved = scene.points * (1 + sigma(z) * generator.standard_normal(z.shape) / z)
     return dataclasses.replace(scene, points=moved.astype(numpy.float32))
+
+
+def noise(scene, millimetres, generator):
+    """Noise along the rays. The standard deviation is `millimetres` at one metre, and grows with
+    depth²."""
+    return along_rays(scene, lambda z: millimetres / 1000 * z**2, generator)
 
 
 def dropout(scene, percent, generator):
@@ -56,11 +74,8 @@ def stride(scene, step, _):
 
 def subset(scene, percent, generator):
     """A random subset of the points with depth, in random order and without rows and columns."""
-    there = numpy.flatnonzero(numpy.isfinite(scene.points).all(axis=1))
-    kept = generator.permutation(there)[: round(len(there) * percent / 100)]
-    return dataclasses.replace(
-        scene, points=scene.points[kept], truth=scene.truth[kept], width=len(kept), height=1
-    )
+    there = with_depth(scene)
+    return listed(scene, generator.permutation(there)[: round(len(there) * percent / 100)])
 
 
 @dataclasses.dataclass(frozen=True)
