@@ -30,6 +30,16 @@ class Sensor:
     noise: tuple = (0.0, 0.0)  # time-of-flight noise: metres, and metres per metre
     depth_step: float = 0.0  # metres; depths are multiples of it
 
+    def spread(self, depth):
+        """The standard deviation of the depth that is measured on a surface, in metres."""
+        rounding = 1 / 12**0.5  # of numbers that are rounded to multiples of 1
+        if self.disparity_noise > 0:
+            disparity = math.hypot(self.disparity_noise, rounding * self.disparity_step)
+            noise = disparity * depth**2 / (self.focal * self.baseline)
+        else:
+            noise = self.noise[0] + self.noise[1] * depth
+        return numpy.hypot(noise, rounding * self.depth_step)
+
 
 SENSORS = {
     "structured-light": Sensor(640, 480, 525, 0.075, 0.055, 1 / 8, 1, 0.6, 0.05),

@@ -45,14 +45,25 @@ def seen(scene, sensor, random, name):
     return frame, image.colour.astype(numpy.uint8).reshape(-1, 3)
 
 
+def arranged(kind, seed):
+    """The scene of a kind and a seed, the name of the sensor that the seed chooses, and the
+    generator of what is random in the image."""
+    random = numpy.random.default_rng([list(arrangements.KINDS).index(kind), seed])
+    scene = arrangements.KINDS[kind](random)
+    names = list(cameras.SENSORS)
+    return scene, names[random.integers(len(names))], random
+
+
+def sensor_of(kind, seed):
+    """The sensor that the seed chooses."""
+    return cameras.SENSORS[arranged(kind, seed)[1]]
+
+
 def frame(kind, seed, sensor=None):
     """A frame as point_clouds.Scene, and the colours of its points as bytes.
 
     @param sensor a name of cameras.SENSORS; without it, the seed chooses one."""
-    random = numpy.random.default_rng([list(arrangements.KINDS).index(kind), seed])
-    scene = arrangements.KINDS[kind](random)
-    names = list(cameras.SENSORS)
-    chosen = names[random.integers(len(names))]
+    scene, chosen, random = arranged(kind, seed)
     return seen(scene, sensor or chosen, random, f"{kind}-{seed}")
 
 

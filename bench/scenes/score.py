@@ -54,6 +54,15 @@ def of_objects(labels, summary):
     return numpy.where(numpy.isin(labels, others), 0, labels)
 
 
+def labels_of_objects(program, path, outputs):
+    """The labels that a program gives to a frame. @param outputs a folder for its files."""
+    labels = program.labels(path, outputs)
+    if (summary := outputs / "summary.json").exists():
+        labels = of_objects(labels, summary)
+        summary.unlink()
+    return labels
+
+
 def strays(truth, labels):
     """The number of segments of which less than half lies on objects. Only points with a true label
     count."""
@@ -74,11 +83,7 @@ def score(kind, seed, programs, edges, keep):
         for program in programs:
             found = []
             for variant in variants(program, kind, edges):
-                outputs = pathlib.Path(folder) / "labels"
-                labels = variant.labels(path, outputs)
-                if (summary := outputs / "summary.json").exists():
-                    labels = of_objects(labels, summary)
-                    summary.unlink()
+                labels = labels_of_objects(variant, path, pathlib.Path(folder) / "labels")
                 scores = segmentation_metrics.score(scene.truth, labels, False, False)
                 found.append((scores.f, strays(scene.truth, labels)))
             results.append(numpy.mean(found, axis=0))

@@ -124,8 +124,11 @@ def read_scene(path):
     )
 
 
-def write_scene(path, scene, colours=None):
-    """Writes a frame as a PCD file. @param colours red, green and blue of each point, as bytes."""
+def write_scene(path, scene, colours=None, viewpoint=(0, 0, 0)):
+    """Writes a frame as a PCD file.
+
+    @param colours red, green and blue of each point, as bytes.
+    @param viewpoint the place of the sensor."""
     colour = [("rgb", "<u4")] if colours is not None else []
     rows = numpy.empty(len(scene.truth), [("xyz", "<f4", 3), ("label", "<u4"), *colour])
     rows["xyz"], rows["label"] = scene.points, scene.truth
@@ -140,12 +143,21 @@ def write_scene(path, scene, colours=None):
         "COUNT" + " 1" * fields,
         f"WIDTH {scene.width}",
         f"HEIGHT {scene.height}",
-        "VIEWPOINT 0 0 0 1 0 0 0",
+        f"VIEWPOINT {' '.join(f'{x:.9g}' for x in viewpoint)} 1 0 0 0",
         f"POINTS {len(rows)}",
         "DATA binary",
         "",
     )
     pathlib.Path(path).write_bytes("\n".join(header).encode() + rows.tobytes())
+
+
+def write_depth(path, scene, per_metre):
+    """Writes the depth of an organised frame as a PGM file of 16 bits. 0 is no depth.
+
+    @param per_metre units of depth per metre."""
+    depth = numpy.nan_to_num(numpy.rint(scene.points[:, 2] * float(per_metre))).astype(">u2")
+    header = f"P5 {scene.width} {scene.height} 65535\n"
+    pathlib.Path(path).write_bytes(header.encode() + depth.tobytes())
 
 
 def read_pgm(path):
