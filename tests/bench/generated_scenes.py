@@ -22,6 +22,7 @@ import frames  # noqa: E402
 import placing  # noqa: E402
 import shapes  # noqa: E402
 import score  # noqa: E402
+import stability  # noqa: E402
 import point_clouds  # noqa: E402
 
 VIEW = cameras.View.towards(cameras.SENSORS["structured-light"], (0.3, -0.8, 0.7), (0, 0, 0.05))
@@ -105,6 +106,48 @@ class Scores(unittest.TestCase):
         self.assertIn("difference 0.0000 ± 0.0000", run.stdout)
         run = subprocess.run([*command, "--least", "table=1.1"], capture_output=True, text=True, timeout=280)
         self.assertEqual(run.returncode, 1, run.stdout + run.stderr)
+
+
+class Stability(unittest.TestCase):
+    def setUp(self):
+        self.frame = stability.generated_frame("table", 3)
+
+    def test_a_change_moves_points_and_keeps_their_numbers(self):
+        scene = self.frame.scene
+        there = numpy.isfinite(scene.points).all(axis=1)
+        for name, changed in stability.changes(self.frame, 1):
+            with self.subTest(name):
+                self.assertEqual(len(changed.origin), changed.scene.width * changed.scene.height)
+                kept = numpy.isfinite(changed.scene.points).all(axis=1)
+                self.assertTrue(there[changed.origin[kept]].all())
+                truth = scene.truth[changed.origin[kept]]
+                numpy.testing.assert_array_equal(changed.scene.truth[kept], truth)
+                before = numpy.linalg.norm(scene.points[changed.origin[kept]], axis=1)
+                after = numpy.linalg.norm(changed.scene.points[kept] - changed.viewpoint, axis=1)
+                if name.startswith("noise"):
+                    self.assertGreater(abs(after - before).max(), 1e-3)
+                else:
+                    numpy.testing.assert_allclose(after, before, atol=1e-5)
+
+    def test_noise_of_surfaces_is_that_of_the_sensor(self):
+        for sensor, allowed in (("structured-light", 0.1), ("active-stereo", 0.2)):
+            scene, _ = frames.frame("table", 3, sensor)
+            spread = cameras.SENSORS[sensor].spread(1.0)
+            ratio = stability.noise_of_surfaces(scene) / spread
+            self.assertAlmostEqual(ratio, 1, delta=allowed, msg=sensor)
+
+    def test_the_camera_is_found(self):
+        scene, _ = frames.frame("table", 3, "active-stereo")
+        expected = (460, 460, 319.5, 239.5)
+        numpy.testing.assert_allclose(stability.pinhole(scene), expected, atol=1e-3)
+
+    def test_a_table(self):
+        command = [sys.executable, "-B", SCENES / "stability.py", BUILD, "--kinds", "table",
+                   "--seeds", "1"]
+        run = subprocess.run(command, capture_output=True, text=True, timeout=280)
+        self.assertEqual(run.returncode, 0, run.stdout + run.stderr)
+        self.assertIn("| 1 generated frames | libph |", run.stdout)
+        self.assertIn("| points in random order | 1.000 / 1.000 / 100 % |", run.stdout)
 
 
 if __name__ == "__main__":
