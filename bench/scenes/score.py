@@ -4,14 +4,20 @@
 
     score.py build/release --seeds 0-19
 
-prints, for each kind, the mean F measure of objects with its standard error, and the mean number of
-strays: segments of which less than half lies on objects. A segment of ph-segment counts only if its
-role is `object`. The score of a frame is the mean over five voxel edges (4.7 to 5.3 mm).
+prints, for each kind, the mean F measure of objects with its standard error, the mean number of
+strays, and the mean CPU time of a run. A stray is a segment of which less than half lies on
+objects. A segment of ph-segment counts only if its role is `object`. The score of a frame is the
+mean over five voxel edges (4.7 to 5.3 mm).
 
 A program for --peer is NAME = COMMAND, as for segmentation_scores.py. The printed difference is our
-F minus its F, averaged over the frames. A command with {edge} runs once per voxel edge: {edge}
-stands for nothing (the default, 5 mm) or for `--voxel E`. {range} stands for the option that
-ph-segment needs for a kind: --max-range 6 in rooms, which are larger than its default range of 2 m.
+F minus its F, averaged over the frames. The CPU time is that of the process (user + system), or, if
+the command names stages=FILE, the sum of the stages in that file. The CPU time of a peer is printed
+as a multiple of ours. CPU times are comparable only with --jobs 1.
+
+A command with {edge} runs once per voxel edge: {edge} stands for nothing (then ph-segment chooses
+an edge, 5 mm or more) or for `--voxel E`. {range} stands for the option that ph-segment needs for a
+kind: --max-range 6 in rooms, which are larger than its default range of 2 m.
+
 Needs numpy.
 """
 
@@ -21,6 +27,7 @@ import csv
 import json
 import os
 import pathlib
+import resource
 import shlex
 import sys
 import tempfile
@@ -73,8 +80,14 @@ def strays(truth, labels):
     return int(((on_all > 0) & (2 * on_objects < on_all)).sum())
 
 
+def cpu_of_children():
+    """The user + system seconds of all programs that this process has run."""
+    usage = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return usage.ru_utime + usage.ru_stime
+
+
 def score(kind, seed, programs, edges, keep):
-    """For each program, the mean F and the mean number of strays of one frame."""
+    """For each program, the mean F, number of strays and CPU seconds of its runs on one frame."""
     scene, colours = frames.frame(kind, seed)
     results = []
     with tempfile.TemporaryDirectory() as folder:
@@ -83,9 +96,14 @@ def score(kind, seed, programs, edges, keep):
         for program in programs:
             found = []
             for variant in variants(program, kind, edges):
-                labels = labels_of_objects(variant, path, pathlib.Path(folder) / "labels")
+                outputs = pathlib.Path(folder) / "labels"
+                before = cpu_of_children()
+                labels = labels_of_objects(variant, path, outputs)
+                cpu = cpu_of_children() - before
+                if stages := variant.stages(path, outputs):
+                    cpu = sum(stages.values())
                 scores = segmentation_metrics.score(scene.truth, labels, False, False)
-                found.append((scores.f, strays(scene.truth, labels)))
+                found.append((scores.f, strays(scene.truth, labels), cpu))
             results.append(numpy.mean(found, axis=0))
     return results
 
@@ -97,12 +115,18 @@ def mean(values):
 
 
 def line(kind, programs, of_kind):
-    """The results of a kind as text. @param of_kind an array of frames x programs x (F, strays)."""
+    """The results of a kind as text.
+
+    @param of_kind an array of frames x programs x (F, strays, CPU seconds)."""
+    cpu = of_kind[:, :, 2].mean(axis=0)
     parts = []
     for k, program in enumerate(programs):
         text = f"F {mean(of_kind[:, k, 0])}, strays {of_kind[:, k, 1].mean():.2f}"
-        if k > 0:
-            text = f"{program.name}: {text}, difference {mean(of_kind[:, 0, 0] - of_kind[:, k, 0])}"
+        if k == 0:
+            text += f", CPU {1000 * cpu[0]:.0f} ms"
+        else:
+            difference = mean(of_kind[:, 0, 0] - of_kind[:, k, 0])
+            text = f"{program.name}: {text}, CPU x {cpu[k] / cpu[0]:.2f}, difference {difference}"
         parts.append(text)
     return f"{kind:9} " + " | ".join(parts)
 
@@ -156,10 +180,11 @@ def main():
     if arguments.csv:
         with arguments.csv.open("w", newline="", encoding="utf-8") as file:
             writer = csv.writer(file)
-            writer.writerow(["kind", "seed", "program", "f", "strays"])
+            writer.writerow(["kind", "seed", "program", "f", "strays", "cpu"])
             for (kind, seed), of_frame in zip(tasks, results):
-                for program, (f, stray) in zip(programs, of_frame):
-                    writer.writerow([kind, seed, program.name, f"{f:.4f}", f"{stray:g}"])
+                for program, (f, stray, cpu) in zip(programs, of_frame):
+                    row = [kind, seed, program.name, f"{f:.4f}", f"{stray:g}", f"{cpu:.4f}"]
+                    writer.writerow(row)
     failed = False
     for kind in arguments.kinds:
         of_kind = results[[k == kind for k, _ in tasks]]
@@ -167,6 +192,8 @@ def main():
         below = of_kind[:, 0, 0].mean() < wanted
         failed |= below
         print(line(kind, programs, of_kind) + (f", expected {wanted} or more" if below else ""))
+    if len(arguments.kinds) > 1:
+        print(line("all", programs, results))
     return 1 if failed else 0
 
 

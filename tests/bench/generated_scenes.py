@@ -104,6 +104,7 @@ class Scores(unittest.TestCase):
         self.assertEqual(run.returncode, 0, run.stdout + run.stderr)
         self.assertIn("table     F 0.9", run.stdout)
         self.assertIn("difference 0.0000 ± 0.0000", run.stdout)
+        self.assertRegex(run.stdout, r"CPU [1-9]\d* ms \| .*, CPU x \d+\.\d\d,")
         run = subprocess.run([*command, "--least", "table=1.1"], capture_output=True, text=True, timeout=280)
         self.assertEqual(run.returncode, 1, run.stdout + run.stderr)
 
