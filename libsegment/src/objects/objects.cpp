@@ -30,7 +30,10 @@ class HiddenJoins {
   };
   using Border = std::vector<BorderVoxel>;
 
-  double nearer() const { return 2 * voxel_; }
+  double nearer() const {
+    constexpr double voxels = 2;
+    return voxels * voxel_;
+  }
   auto kind() const {
     return [this](std::uint32_t v) {
       return parts_.of[v] == kSmall ? kSmall : object_of_[parts_.of[v]];
@@ -100,10 +103,10 @@ class HiddenJoins {
   /// True if one smooth surface through both voxels is hidden between them.
   bool goes_on(const BorderVoxel& a, const BorderVoxel& b) const {
     constexpr double cosine = 0.966;  // the cosine of 15 degrees between the normals
-    constexpr double slope = 0.05;
+    constexpr double thickness = 0.6, slope = 0.05;  // in voxels, and a share of the gap
     if (a.normal.dot(b.normal) < cosine) return false;
     const Eigen::Vector3d d = b.place - a.place;
-    const double gap = d.norm(), tolerance = 0.6 * voxel_ + slope * gap;
+    const double gap = d.norm(), tolerance = thickness * voxel_ + slope * gap;
     if (gap > kLongestGap || std::abs(a.normal.dot(d)) > tolerance ||
         std::abs(b.normal.dot(d)) > tolerance)
       return false;

@@ -20,6 +20,8 @@ constexpr int kRefits = 4;
 // The search uses twice the thickness, because a plane through three noisy points is rarely exact
 // to a millimetre.
 constexpr double kOfSearch = 2;
+// A share of the largest spread. Points that spread less across it lie on a line.
+constexpr double kLeastSpread = 1e-9;
 
 struct Candidate {
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
@@ -123,7 +125,7 @@ std::optional<Candidate> refit(const Candidate& plane, const Sample& sample, dou
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(scatter);
   const Eigen::Vector3d& spread = solver.eigenvalues();
-  if (!(spread[1] > 1e-9 * spread[2])) return std::nullopt;
+  if (!(spread[1] > kLeastSpread * spread[2])) return std::nullopt;
   const Eigen::Vector3d normal = solver.eigenvectors().col(0);
   return Candidate{normal, -normal.dot(mean)};
 }

@@ -20,6 +20,9 @@ constexpr double kGoodPixels = 0.5;
 // A viewpoint that explains the pixels so much worse is wrong.
 constexpr double kTimesWorse = 5;
 constexpr double kOutlierPixels = 3;     // a pixel with a larger error shows something else
+// The first projection is less exact than the next ones. Its outliers are this many times
+// farther away.
+constexpr double kFirstLimit = 3;
 constexpr double kFewestInliers = 0.75;  // a share of all sightings
 // The distance is in units of the points' spread. Rays that meet farther away than this count as
 // parallel.
@@ -154,7 +157,8 @@ using Projection = Eigen::Matrix<double, 3, 4>;
 Projection robust_fit(const Sightings& sightings) {
   // If a sixth of the points are outliers, one in nine draws of 12 points has no outlier.
   constexpr int hypotheses = 60, points = 12;
-  const std::size_t step = std::max<std::size_t>(1, sightings.size() / 1024);
+  constexpr std::size_t scored = 1024;  // the number of sightings that score a projection
+  const std::size_t step = std::max<std::size_t>(1, sightings.size() / scored);
   std::minstd_rand random;  // this gives the same numbers in each run
   Projection best = Projection::Zero();
   double least = kInfinity;
@@ -227,7 +231,8 @@ std::optional<Vec3> centre_elsewhere(const CloudView& cloud) {
   Projection projection = fit<4>(sightings, place_of);
   if (root_mean_square(errors_of(projection, sightings, place_of), 1) > good) {
     projection = robust_fit(sightings);
-    for (const double limit : {3 * outlier, outlier, outlier}) {  // mutant: viewpoint-outliers
+    // mutant: viewpoint-outliers
+    for (const double limit : {kFirstLimit * outlier, outlier, outlier}) {
       sightings = inliers_of(projection, sightings, limit);
       if (static_cast<double>(sightings.size()) < kFewestInliers * static_cast<double>(all))
         return std::nullopt;

@@ -39,8 +39,11 @@ Sample draw_sample(const CloudView& cloud, const std::vector<Index>& points,
     auto key() const { return std::tie(hash, x, y, z); }
   };
   std::vector<Drawn> drawn;
-  const double wanted = 1.25 * kSample;
-  for (double share = wanted / static_cast<double>(points.size());; share *= 8) {
+  // More points are drawn than are kept, because their number is random. If they are still too few,
+  // many more are drawn.
+  constexpr double surplus = 1.25, many_more = 8;
+  const double wanted = surplus * kSample;
+  for (double share = wanted / static_cast<double>(points.size());; share *= many_more) {
     const bool all = share >= 1;
     const auto limit = all ? UINT64_MAX : static_cast<std::uint64_t>(std::ldexp(share, 64));
     drawn.clear();

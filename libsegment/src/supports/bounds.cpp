@@ -26,7 +26,8 @@ std::vector<Voxels> voxels_of(const Parts& parts) {
 /// The area of a plane that some voxels cover, in square metres.
 double covered_area(const Plane& plane, const Points& centroids, const Voxels& voxels,
                     double voxel) {
-  const double side = 2 * voxel;  // the voxels leave no gaps in squares of this size
+  constexpr double voxels_a_side = 2;  // the voxels leave no gaps in squares of this size
+  const double side = voxels_a_side * voxel;
   const Squares paper(plane, side);
   std::vector<std::array<double, 2>> squares;
   for (const Index v : voxels) squares.push_back(paper.of(as_matrix(centroids).row(v).transpose()));

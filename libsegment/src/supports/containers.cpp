@@ -49,14 +49,14 @@ class Containers {
           turn * as_matrix(scene.vertices).row(static_cast<Index>(v)).transpose());
     }
     for (std::size_t k = 0; k < things_.size(); ++k) measure(things_[k], places[k]);
-    constexpr Index fewest = 10;  // pairs of voxels that are near each other
+    constexpr Index fewest_pairs = 10;  // pairs of voxels that are near each other
     std::map<std::pair<std::uint32_t, std::uint32_t>, Index> contacts;
     for (const VoxelPair& pair : surface.pairs) {
       const std::uint32_t a = objects.of[pair.u], b = objects.of[pair.v];
       if (a != b && a != Parts::kSmall && b != Parts::kSmall) ++contacts[std::minmax(a, b)];
     }
     for (const auto& [both, count] : contacts) {
-      if (count < fewest) continue;
+      if (count < fewest_pairs) continue;
       touching_[both.first].push_back(both.second);
       touching_[both.second].push_back(both.first);
     }

@@ -36,7 +36,8 @@ std::optional<Candidate> refit(const Candidate& plane, const Points& centroids,
   Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
   for (const auto& p : on) scatter += (p - mean) * (p - mean).transpose();
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(scatter);
-  if (!(solver.eigenvalues()[1] > 1e-9 * solver.eigenvalues()[2])) return std::nullopt;
+  constexpr double least_spread = 1e-9;  // a share of the largest spread
+  if (!(solver.eigenvalues()[1] > least_spread * solver.eigenvalues()[2])) return std::nullopt;
   const Eigen::Vector3d normal = solver.eigenvectors().col(0);
   return Candidate{normal, -normal.dot(mean)};
 }

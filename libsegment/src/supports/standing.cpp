@@ -140,7 +140,8 @@ void find_what_it_stands_on(const SceneTree& scene, std::span<const VoxelPair> p
   }
   for (const auto& [both, count] : at_boards)
     if (count >= kFewest) cut.segments[both.first - 1].on = {both.second, 0};
-  const double reach = 3 * scene.voxel;
+  constexpr double voxels_up = 3;
+  const double reach = voxels_up * scene.voxel;
   std::vector<Index> most(cut.segments.size() + 1);
   const auto stands_on = [&](std::uint32_t upper, std::uint32_t lower, const Contact& contact) {
     Segment& segment = cut.segments[upper - 1];

@@ -95,7 +95,7 @@ void assign_points_in_openings(const CloudView& cloud, const std::vector<Index>&
                                std::vector<Index>& points, VoxelGrid& grid) {
   // This is a share of the radius. It is slightly less than 1, because the points of a rim are
   // blurred.
-  constexpr double of_radius = 0.97;
+  constexpr double of_opening = 0.97;
   const Eigen::Matrix3d turn = upright(plane.normal);
   const auto above = [&](const Eigen::Vector3d& p) -> Eigen::Vector3d {
     return turn * p + Eigen::Vector3d(0, 0, plane.offset);
@@ -136,7 +136,7 @@ void assign_points_in_openings(const CloudView& cloud, const std::vector<Index>&
       // This checks that the ray enters through the opening and does not leave through a gap in the
       // wall.
       // mutant: opening-gaps
-      if (from_axis(opening.height) >= of_radius * opening.circle.radius ||
+      if (from_axis(opening.height) >= of_opening * opening.circle.radius ||
           from_axis(std::max(p.z(), 0.0)) >= opening.circle.radius ||
           !may_be_in_opening(plane, {q[0], q[1], q[2]}, place_of(opening.voxel)))
         continue;

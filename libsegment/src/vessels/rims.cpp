@@ -59,7 +59,8 @@ void join_around_rims(const Points& centroids, double voxel, const Vec3& up, con
   }
   // An arc of this many sectors is longer than a third of the circle's diameter. The other rim on
   // the circle is therefore never farther away than this.
-  const auto reach = [](const PartBox<2>& b) { return 4 * b.box.diagonal().norm(); };
+  constexpr double diagonals = 4;
+  const auto reach = [](const PartBox<2>& b) { return diagonals * b.box.diagonal().norm(); };
   for_each_close_pair(boxes, reach, context, [&](std::uint32_t p, std::uint32_t q) {
     if (share_a_rim(rims[p], rims[q], voxel)) join(p, q);
   });

@@ -52,7 +52,7 @@ class VoxelTable {
     const auto number = static_cast<std::uint32_t>(voxels_.size());
     voxels_.push_back({x, y, z});
     slots_[slot] = number;
-    if (4 * voxels_.size() > slots_.size()) grow();
+    if (kSlotsAVoxel * voxels_.size() > slots_.size()) grow();
     return number;
   }
   Voxel& operator[](std::uint32_t number) { return voxels_[number]; }
@@ -61,6 +61,7 @@ class VoxelTable {
  private:
   static constexpr std::uint32_t kEmpty = UINT32_MAX;
   static constexpr std::size_t kFirstCapacity = 1 << 16;
+  static constexpr std::size_t kSlotsAVoxel = 4;  // at least
 
   std::size_t next(std::size_t slot) const { return (slot + 1) & (slots_.size() - 1); }
   std::size_t slot_of(double x, double y, double z) const {
