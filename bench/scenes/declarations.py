@@ -17,10 +17,15 @@ CLOSING = {"(": ")", "{": "}", "[": "]"}
 
 
 class Constant(NamedTuple):
+    type: str
     name: str
     value: str  # as in the source, with single spaces
     begin: int  # where the value is in the source
     end: int
+
+
+def value_of(number):
+    return float(number.replace("'", "").rstrip("uUzZlLfF"))
 
 
 def code_of(text):
@@ -45,13 +50,15 @@ def constants_in(text):
     """The constants of a source, in their order."""
     code, found = code_of(text), []
     for declaration in DECLARATION.finditer(code):
-        name, is_braced, begin = declaration[2], declaration[3] == "{", declaration.end()
+        kind, name, is_braced = declaration[1].strip(), declaration[2], declaration[3] == "{"
+        begin = declaration.end()
         while True:
             end = end_of(code, begin, "}" if is_braced else ",;")
             value = text[begin:end]
             begin += len(value) - len(value.lstrip())
             if NUMBER.search(code, begin, end):
-                found.append(Constant(name, " ".join(value.split()), begin, begin + len(value.strip())))
+                bounds = begin, begin + len(value.strip())
+                found.append(Constant(kind, name, " ".join(value.split()), *bounds))
             after = end + is_braced
             more = re.compile(r"\s*,\s*(\w+)\s*(=|\{)").match(code, after)
             if not more:

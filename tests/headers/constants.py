@@ -67,16 +67,12 @@ def exempts(path, name=""):
             if (key == f"{path}:{name}" if ":" in key else path.startswith(key))]
 
 
-def value_of(number):
-    return float(number.replace("'", "").rstrip("uUzZlLfF"))
-
-
 def bare_numbers(code):
     """The places of numbers that need a name. @param code without the values of constants."""
     neutral = [match.span() for match in NEUTRAL.finditer(code)]
     for match in declarations.NUMBER.finditer(code):
         if not any(begin <= match.start() < end for begin, end in neutral) and \
-                value_of(match[0]) not in PLAIN:
+                declarations.value_of(match[0]) not in PLAIN:
             yield match
 
 
