@@ -1,15 +1,15 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Renders the tables of docs/notes/benchmarks.md from bench/results: render_tables.py [--check] [ROOT]
+"""Renders the tables of PAGES from bench/results: render_tables.py [--check] [ROOT]
 
-The page has a line <!-- table: NAME.csv --> and a line <!-- end --> for each table. The script
-replaces the text between them. With --check it does not change the page, and the exit code is 1 if
-the page would change.
+A page has a line <!-- table: NAME.csv --> and a line <!-- end --> for each table. The script
+replaces the text between them. With --check it does not change the pages, and the exit code is 1 if
+a page would change.
 
 A CSV file begins with a column `shown` (yes: the row is on the page) and ends with the columns
-`script`, `machine`, `date` and `versions`, from which the line above the table is made. The columns
-between them are the columns of the table. Two columns "X s" and "X MB" become one column X. Needs
-only the standard library.
+`script`, `machine`, `date` and `versions`, from which the line above the table is made. In a row
+that was not measured, these columns are empty. The columns between them are the columns of the
+table. Two columns "X s" and "X MB" become one column X. Needs only the standard library.
 """
 import argparse
 import csv
@@ -20,9 +20,10 @@ import sys
 import textwrap
 from pathlib import Path
 
-PAGE = "docs/notes/benchmarks.md"
+PAGES = ("docs/notes/benchmarks.md", "docs/reference/segmentation-constants.md")
 RESULTS = "bench/results"
 SOURCE = ["script", "machine", "date", "versions"]
+CODE = ("name", "value")  # the columns that are parts of sources
 TABLE = re.compile(r"(<!-- table: (\S+) -->\n).*?(<!-- end -->\n)", re.DOTALL)
 
 
@@ -47,6 +48,8 @@ def names_of(columns):
 
 
 def cell(row, name):
+    if name in CODE:
+        return f"`{row[name]}`"
     if name in row:
         return row[name]
     return " / ".join(filter(None, (row[f"{name} s"], row[f"{name} MB"])))
@@ -57,13 +60,17 @@ def caption(rows, root):
     the text states each difference and the rows that it concerns."""
     sentences, first, usual = [], 1, []
     for origin, group in itertools.groupby(rows, lambda row: [row[name] for name in SOURCE]):
+        last = first + len(list(group)) - 1
+        if not any(origin):
+            first = last + 1
+            continue
         if not (root / origin[0]).is_file():
             raise SystemExit(f"{origin[0]}: found no such script")
         said = [f"`{origin[0]}`", *origin[1:]]
-        last = first + len(list(group)) - 1
         which = "" if not usual else f"Row {first}: " if first == last else f"Rows {first} to {last}: "
         other = [words for words in said if words and words not in usual]
-        sentences.append(which + "; ".join(other) + ".")
+        if other:
+            sentences.append(which + "; ".join(other) + ".")
         usual, first = usual or said, last + 1
     return textwrap.fill(" ".join(sentences), 100, break_long_words=False, break_on_hyphens=False)
 
@@ -72,32 +79,35 @@ def rendered(path, root):
     columns, rows = read(path)
     names = names_of(columns)
     lines = [names, ["---"] * len(names), *([cell(row, name) for name in names] for row in rows)]
-    return caption(rows, root) + "\n\n" + "\n".join(f"| {' | '.join(cells)} |" for cells in lines) + "\n"
+    table = "".join(f"| {' | '.join(cells)} |\n" for cells in lines)
+    return "\n\n".join(filter(None, (caption(rows, root), table)))
 
 
-def new_page(text, root):
+def new_pages(texts, root):
+    """@param texts the text of each page."""
     results = {path.name: path for path in (root / RESULTS).glob("*.csv")}
-    named = [match[2] for match in TABLE.finditer(text)]
+    named = [match[2] for text in texts for match in TABLE.finditer(text)]
     if sorted(named) != sorted(results):
-        raise SystemExit(f"{PAGE}: found the tables {', '.join(sorted(named))}; "
+        raise SystemExit(f"{', '.join(PAGES)}: found the tables {', '.join(sorted(named))}; "
                          f"{RESULTS} has {', '.join(sorted(results))}")
-    return TABLE.sub(lambda match: match[1] + rendered(results[match[2]], root) + match[3], text)
+    return [TABLE.sub(lambda match: match[1] + rendered(results[match[2]], root) + match[3], text)
+            for text in texts]
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("root", type=Path, nargs="?", default=Path(__file__).resolve().parents[1])
-    parser.add_argument("--check", action="store_true", help="change nothing; exit with 1 if the page would change")
+    parser.add_argument("--check", action="store_true", help="change nothing; exit with 1 if a page would change")
     arguments = parser.parse_args()
-    page = arguments.root / PAGE
-    old = page.read_text(encoding="utf-8")
-    new = new_page(old, arguments.root)
-    if not arguments.check:
-        page.write_text(new, encoding="utf-8")
-    elif new != old:
-        sys.stdout.writelines(difflib.unified_diff(old.splitlines(True), new.splitlines(True), PAGE, RESULTS))
-        sys.exit(1)
+    old = [(arguments.root / page).read_text(encoding="utf-8") for page in PAGES]
+    new = new_pages(old, arguments.root)
+    for page, before, after in zip(PAGES, old, new):
+        if not arguments.check:
+            (arguments.root / page).write_text(after, encoding="utf-8")
+        else:
+            sys.stdout.writelines(difflib.unified_diff(before.splitlines(True), after.splitlines(True), page, RESULTS))
+    return 1 if arguments.check and new != old else 0
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(main())

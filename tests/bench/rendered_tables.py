@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""bench/render_tables.py: the benchmark page has the figures of bench/results, and a planted
-difference is found."""
+"""bench/render_tables.py: the pages have the figures of bench/results, and a planted difference is
+found."""
 import pathlib
 import shutil
 import subprocess
@@ -11,6 +11,7 @@ import unittest
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SCRIPT = ROOT / "bench/render_tables.py"
 PAGE, RESULTS = "docs/notes/benchmarks.md", "bench/results"
+CONSTANTS = "docs/reference/segmentation-constants.md"
 
 
 def render(root, *options):
@@ -23,8 +24,9 @@ class RenderedTables(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.root = pathlib.Path(folder.name)
         shutil.copytree(ROOT / "bench", self.root / "bench", ignore=shutil.ignore_patterns("__pycache__"))
-        (self.root / PAGE).parent.mkdir(parents=True)
-        shutil.copy(ROOT / PAGE, self.root / PAGE)
+        for page in (PAGE, CONSTANTS):
+            (self.root / page).parent.mkdir(parents=True)
+            shutil.copy(ROOT / page, self.root / page)
 
     def replace(self, name, old, new):
         text = (self.root / name).read_text(encoding="utf-8")
@@ -56,6 +58,22 @@ class RenderedTables(unittest.TestCase):
                 self.assertEqual(render(self.root).returncode, 0)
                 self.assertEqual(render(self.root, "--check").returncode, 0)
                 self.assertEqual((self.root / PAGE).read_text(encoding="utf-8") == before, name == PAGE)
+
+    def test_rows_that_were_not_measured_have_no_origin(self):
+        name = f"{RESULTS}/segmentation-constants.csv"
+        header = (self.root / name).read_text(encoding="utf-8").split("\n")[0]
+        cells = ["yes", *"fnvuwc", "", "", "", "", "", ""]
+        measured = [*cells[:-4], "bench/scenes/score.py", "", "2026-01-31", ""]
+        for rows, caption in (([cells, cells], ""),
+                              ([cells, measured, cells], "`bench/scenes/score.py`; 2026-01-31.\n\n"),
+                              ([measured, cells, measured], "`bench/scenes/score.py`; 2026-01-31.\n\n")):
+            with self.subTest(caption):
+                lines = [header, *(",".join(row) for row in rows), ""]
+                (self.root / name).write_text("\n".join(lines), encoding="utf-8")
+                self.assertEqual(render(self.root).returncode, 0)
+                page = (self.root / CONSTANTS).read_text(encoding="utf-8")
+                self.assertIn(f"<!-- table: segmentation-constants.csv -->\n{caption}| file | name |", page)
+                self.assertIn("| f | `n` | `v` | u |", page)
 
     def test_a_table_without_a_file_is_refused(self):
         self.replace(PAGE, "<!-- table: rips.csv -->", "<!-- table: lost.csv -->")
