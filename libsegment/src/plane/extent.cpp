@@ -75,24 +75,24 @@ void Extent::add(const Eigen::Vector3d& p, double margin) {
 bool Extent::goes_on_behind() const {
   // A share of the squares in which the plane is seen. Tables have at most 0.004, or 0.095 with an
   // apron of 10 cm below the board. The tops of boxes of 0.2 m² and more have at least 0.14.
-  constexpr double most = 0.1;
+  constexpr double most_behind = 0.1;
   const bool is_large = area() >= kLeastTable;
   const auto behind = std::ranges::count_if(all_, [&](const Square& square) {
     const Count& count = *find(square);
     return count.on > 0 && (is_large ? count.deep : count.behind) > 0;
   });
-  return static_cast<double>(behind) > most * static_cast<double>(seen_);
+  return static_cast<double>(behind) > most_behind * static_cast<double>(seen_);
 }
 
 bool Extent::goes_on_beside() const {
-  constexpr double most = 0.25;  // a share of the points on the plane
+  constexpr double most_beside = 0.25;  // a share of the points on the plane
   Index on = 0, below = 0;
   for (const Square& square : all_) {
     const Count& count = *find(square);
     if (count.is_clear()) on += count.on;
     if (count.deep > 0 && is_clear_near(square)) below += count.deep;
   }
-  return static_cast<double>(below) > most * static_cast<double>(on);
+  return static_cast<double>(below) > most_beside * static_cast<double>(on);
 }
 
 bool Extent::has_things_on_it() const {

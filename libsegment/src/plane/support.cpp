@@ -75,14 +75,14 @@ std::size_t count_contacts(const Plane& plane, const Sample& things) {
 std::size_t most_touched(const std::vector<PlaneSearch>& planes, const Sample& things) {
   std::vector<std::size_t> contacts;
   for (const PlaneSearch& search : planes) contacts.push_back(count_contacts(*search.plane, things));
-  constexpr double least_share = 0.05;
+  constexpr double least_share_of_support = 0.05;
   std::size_t best = 0, most = 0;
   for (std::size_t i = 0; i < planes.size(); ++i) {
     std::size_t count = 0;
     for (std::size_t k = 0; k < planes.size(); ++k)
       if (cosine_between(*planes[i].plane, *planes[k].plane) >= kLeastOfParallel)
         count += contacts[k];
-    if (count <= most || planes[i].plane->share < least_share) continue;
+    if (count <= most || planes[i].plane->share < least_share_of_support) continue;
     most = count;
     best = i;
   }

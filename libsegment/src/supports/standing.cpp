@@ -13,6 +13,9 @@
 namespace ph::segment {
 namespace {
 
+// Shares of the voxels of a segment: where its lower and its upper end are. The voxels beyond them
+// may be wrong.
+constexpr double kLowerEnd = 0.02, kUpperEnd = 0.98;
 constexpr Index kFewest = 10;  // the number of points, or of pairs of voxels, that show a contact
 
 /// The number of points of each segment that are as low as a support. The distance of these points
@@ -51,8 +54,7 @@ struct Contact {
   double heights = 0;  // the sum of the heights of the pairs
 };
 
-/// For each segment, the height below which a share of its voxels lies. The lower end of a segment
-/// is where two voxels in a hundred are lower, because these may be wrong.
+/// For each segment, the height below which a share of its voxels lies.
 std::vector<double> ends_of(const SceneCut& cut, const std::vector<double>& heights, double share) {
   std::vector<std::vector<double>> of(cut.segments.size() + 1);
   for (std::size_t v = 0; v < heights.size(); ++v) of[cut.vertex_labels[v]].push_back(heights[v]);
@@ -120,9 +122,9 @@ void find_what_it_stands_on(const SceneTree& scene, std::span<const VoxelPair> p
     const auto p = scene.vertices.row(v);
     heights.push_back(support.signed_distance(p[0], p[1], p[2]));
   }
-  const std::vector<double> ends = ends_of(cut, heights, 0.02);
+  const std::vector<double> ends = ends_of(cut, heights, kLowerEnd);
   find_removed_supports(scene, ends, cut);
-  find_legs(scene, ends_of(cut, heights, 0.98), cut);
+  find_legs(scene, ends_of(cut, heights, kUpperEnd), cut);
   const std::vector<std::uint8_t> boards = boards_of(scene, cut);
   std::map<std::pair<std::uint32_t, std::uint8_t>, Index> at_boards;
   std::map<std::pair<std::uint32_t, std::uint32_t>, Contact> contacts;
