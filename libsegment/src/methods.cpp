@@ -111,10 +111,9 @@ ConcavityNoise noise_of(const Scene& scene, double voxel, const RunContext& cont
   // A voxel with fewer near voxels is not used, because the surface around it is incomplete.
   constexpr int fewest_near = 16;
   if (!scene.plane) return {};
-  const std::vector<Index> points =
-      free_patches(scene.cloud, scene.points.on,
-                   scene.before.empty() ? scene.points.beyond : scene.before,
-                   *scene.plane, side * voxel);
+  const std::vector<Index> points = free_patches(
+      scene.cloud, scene.points.on, scene.before.empty() ? scene.points.beyond : scene.before,
+      *scene.plane, side * voxel);
   const VoxelGrid grid = voxel_grid(scene.cloud, points, voxel);
   const VoxelPairs pairs = near_voxels(grid, voxel, context);
   const Relief relief = relief_of(grid, pairs, voxel, scene.cloud.viewpoint);

@@ -79,7 +79,8 @@ Scene clear_scene(const CloudView& cloud, const SegmentOptions& options, StageCl
     } else {
       scene.points = remove_plane(cloud, in_range, *scene.plane, scene.margin);
       result.tree.surfaces.push_back({Role::support, *scene.plane});
-      for (const Index i : scene.points.on) result.tree.removed_with[static_cast<std::size_t>(i)] = 1;
+      for (const Index i : scene.points.on)
+        result.tree.removed_with[static_cast<std::size_t>(i)] = 1;
     }
     result.tree.removed = std::ssize(result.tree.surfaces);
     scene.in_range = std::move(in_range);

@@ -138,8 +138,7 @@ void LabelTracker::settle(const SceneTree& scene, const SceneCut& cut,
       else
         standing.on = segment.on;
     } else if (const std::uint32_t s = standing.on.surface;
-               s > scene.surfaces.size() ||
-               (s != 0 && !is_support(scene.surfaces[s - 1].role))) {
+               s > scene.surfaces.size() || (s != 0 && !is_support(scene.surfaces[s - 1].role))) {
       standing.on = segment.on;
     }
     standings_.push_back(standing);

@@ -102,7 +102,7 @@ class HiddenJoins {
   }
   /// True if one smooth surface through both voxels is hidden between them.
   bool goes_on(const BorderVoxel& a, const BorderVoxel& b) const {
-    constexpr double cosine = 0.966;  // the cosine of 15 degrees between the normals
+    constexpr double cosine = 0.966;                 // the cosine of 15 degrees between the normals
     constexpr double thickness = 0.6, slope = 0.05;  // in voxels, and a share of the gap
     if (a.normal.dot(b.normal) < cosine) return false;
     const Eigen::Vector3d d = b.place - a.place;

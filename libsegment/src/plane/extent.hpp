@@ -57,8 +57,8 @@ class Extent {
   Plane plane_;
   Squares squares_;
   double side_;
-  std::size_t seen_ = 0;        ///< the number of squares in which the plane is seen
-  std::vector<Square> all_;     ///< in order of appearance
+  std::size_t seen_ = 0;     ///< the number of squares in which the plane is seen
+  std::vector<Square> all_;  ///< in order of appearance
   FlatMap<Count> counts_{std::pmr::get_default_resource()};
 };
 

@@ -19,7 +19,7 @@ constexpr double kSure = 0.05;
 constexpr double kGoodPixels = 0.5;
 // A viewpoint that explains the pixels so much worse is wrong.
 constexpr double kTimesWorse = 5;
-constexpr double kOutlierPixels = 3;     // a pixel with a larger error shows something else
+constexpr double kOutlierPixels = 3;  // a pixel with a larger error shows something else
 // The first projection is less exact than the next ones. Its outliers are this many times
 // farther away.
 constexpr double kFirstLimit = 3;

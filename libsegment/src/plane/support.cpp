@@ -74,7 +74,8 @@ std::size_t count_contacts(const Plane& plane, const Sample& things) {
 /// because the things on a shelf stand on several boards.
 std::size_t most_touched(const std::vector<PlaneSearch>& planes, const Sample& things) {
   std::vector<std::size_t> contacts;
-  for (const PlaneSearch& search : planes) contacts.push_back(count_contacts(*search.plane, things));
+  for (const PlaneSearch& search : planes)
+    contacts.push_back(count_contacts(*search.plane, things));
   constexpr double least_share_of_support = 0.05;
   std::size_t best = 0, most = 0;
   for (std::size_t i = 0; i < planes.size(); ++i) {

@@ -28,9 +28,9 @@ std::vector<Board> find_boards(const CloudView& cloud, const std::vector<Index>&
                                const PlaneMargin& margin, std::size_t most) {
   constexpr int most_times = 8;
   constexpr double least_share_of_floor = 0.02;
-  constexpr std::size_t fewest = 50;    // points of the sample
-  constexpr double least_step = 0.15;   // metres between parallel boards
-  constexpr double thickness = 0.01;    // half of it, in metres, during the search
+  constexpr std::size_t fewest = 50;   // points of the sample
+  constexpr double least_step = 0.15;  // metres between parallel boards
+  constexpr double thickness = 0.01;   // half of it, in metres, during the search
   const Eigen::Vector3d eye(cloud.viewpoint.data()), normal(support.normal.data());
   std::vector<double> offsets{support.offset};
   std::vector<Board> boards;
@@ -57,10 +57,9 @@ std::vector<Board> find_boards(const CloudView& cloud, const std::vector<Index>&
                            {margin.distance, margin.noise * std::min(1.0, height / search.range)},
                            search.range);
     // Of a floor, little may be seen beside the support.
-    const bool is_floor = plane.offset > support.offset && share >= least_share_of_floor &&
-                          is_lowest(plane, cloud);
-    if (!is_floor &&
-        (board.extent.area_of_hull() < kLeastTable || board.extent.goes_on_beside()))
+    const bool is_floor =
+        plane.offset > support.offset && share >= least_share_of_floor && is_lowest(plane, cloud);
+    if (!is_floor && (board.extent.area_of_hull() < kLeastTable || board.extent.goes_on_beside()))
       continue;
     offsets.push_back(plane.offset);
     boards.push_back(std::move(board));

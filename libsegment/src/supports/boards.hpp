@@ -24,8 +24,8 @@ Board board_of(const CloudView& cloud, const std::vector<Index>& points, const P
 bool is_lowest(const Plane& plane, const CloudView& cloud);
 
 /// Finds the boards that are parallel to a support, above it and below it. A board is as large as a
-/// table, it is not the top of a box, and it is not near another board. A floor, below which nothing is
-/// seen, may be smaller.
+/// table, it is not the top of a box, and it is not near another board. A floor, below which
+/// nothing is seen, may be smaller.
 /// @param points the points in range, without holes. @param sample some of these points.
 /// @param margin the margin of the support. @param most the largest number of boards.
 std::vector<Board> find_boards(const CloudView& cloud, const std::vector<Index>& points,

@@ -102,8 +102,8 @@ void find_legs(const SceneTree& scene, const std::vector<double>& tops, SceneCut
   for (const SceneSurface& surface : scene.surfaces) {
     if (surface.role != Role::support) continue;
     for (Segment& segment : cut.segments) {
-      const double below = height_of(surface.plane, scene.surfaces.front().plane, segment) -
-                           tops[segment.label];
+      const double below =
+          height_of(surface.plane, scene.surfaces.front().plane, segment) - tops[segment.label];
       if (below >= 0 && below <= kThickestBoard + 2 * scene.voxel &&
           segment.oriented_box.size[2] >= least_slenderness * segment.oriented_box.size[0])
         segment.role = Role::support;

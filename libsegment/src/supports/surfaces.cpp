@@ -37,9 +37,8 @@ std::vector<Index> clear_walls(std::vector<Index> points, const std::vector<Plan
 
 /// True if most of the points are above or below a board.
 bool are_over(const Extent& board, const std::vector<Index>& points, const CloudView& cloud) {
-  const auto over = std::ranges::count_if(points, [&](Index i) {
-    return board.is_over(cloud.point(static_cast<std::size_t>(i)));
-  });
+  const auto over = std::ranges::count_if(
+      points, [&](Index i) { return board.is_over(cloud.point(static_cast<std::size_t>(i))); });
   return 2 * over > std::ssize(points);
 }
 
@@ -89,7 +88,8 @@ void clear_surfaces(const std::vector<Index>& in_range, const std::vector<Plane>
   // Nothing may be seen below the lowest support. Otherwise, the scene ends at the plane.
   const bool has_lower = !boards.empty() && boards.front().plane.offset > plane.offset &&
                          sight.hidden < much_hidden && is_lowest(boards.front().plane, cloud);
-  if (!has_lower) std::erase_if(boards, [&](const Board& b) { return b.plane.offset > plane.offset; });
+  if (!has_lower)
+    std::erase_if(boards, [&](const Board& b) { return b.plane.offset > plane.offset; });
   if (boards.empty()) {
     scene.points = remove_plane(cloud, points, plane, scene.margin);
     for (const Index i : scene.points.on) tree.removed_with[static_cast<std::size_t>(i)] = 1;
@@ -115,7 +115,8 @@ void clear_surfaces(const std::vector<Index>& in_range, const std::vector<Plane>
                                                       : nullptr;
     set_roles(supports, lowest, cloud, tree);
   }
-  if (tree.surfaces.size() > 1) scene.before = remove_plane(cloud, in_range, plane, scene.margin).beyond;
+  if (tree.surfaces.size() > 1)
+    scene.before = remove_plane(cloud, in_range, plane, scene.margin).beyond;
 }
 
 }  // namespace ph::segment
