@@ -75,7 +75,8 @@ Scene clear_scene(const CloudView& cloud, const SegmentOptions& options, StageCl
   if (scene.plane) {
     result.plane_sight = sight_past(cloud, in_range, *scene.plane, scene.margin);
     if (options.method == Method::surface) {
-      clear_surfaces(in_range, search.others, sample, result.plane_sight, scene, result.tree);
+      clear_surfaces(in_range, search.others, sample, result.plane_sight, options.most_supports,
+                     scene, result.tree);
     } else {
       scene.points = remove_plane(cloud, in_range, *scene.plane, scene.margin);
       result.tree.surfaces.push_back({Role::support, *scene.plane});
@@ -175,9 +176,9 @@ Segmentation segment(const CloudView& input, const SegmentOptions& options,
                               result.tree.first_cut.min_size, filtration.points, filtration.grid);
   keep_points(cloud, filtration, result.tree);
   if (options.method == Method::surface && scene.plane)
-    std::ranges::copy(find_bounds(cloud, *scene.plane, result.tree, components.of,
-                                  result.tree.first_cut.min_size),
-                      std::back_inserter(result.tree.surfaces));
+    std::ranges::copy(
+        find_walls(cloud, *scene.plane, result.tree, components.of, result.tree.first_cut.min_size),
+        std::back_inserter(result.tree.surfaces));
   result.cut =
       cut_into(result.tree, components, filtration.surface, result.tree.first_cut, context);
   Index in_segments = 0;

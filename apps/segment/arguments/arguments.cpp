@@ -171,6 +171,12 @@ std::optional<std::string> parse_arguments(int argc, const char* const* argv, Ar
   }
   a.given = options.given();
   require_plane(a.given, a.options.plane);
+  if (a.options.most_supports != SegmentOptions().most_supports &&
+      a.options.method != Method::surface)
+    throw Error(ErrorKind::usage,
+                fmt::format("--plane {}: found --method {}, expected --method surface",
+                            a.options.most_supports,
+                            kMethodNames[static_cast<std::size_t>(a.options.method)]));
   take_plots(a, plots, known);
   if (!a.files.report.empty()) {
     report::require_built_in();

@@ -41,6 +41,16 @@ bool parse_switch(std::string_view option, const std::string& text) {
   return app::choose(option, text, choices) == 1;
 }
 
+/// "on", "off", or the largest number of supports.
+void parse_plane(const std::string& text, SegmentOptions& options) {
+  if (text.find_first_not_of("0123456789") != std::string::npos || text.empty()) {
+    options.plane = parse_switch("--plane", text);
+    return;
+  }
+  options.plane = true;
+  options.most_supports = app::parse_integer("--plane", text, 1, kMostSurfaces);
+}
+
 Method parse_method(const std::string& text) {
   return static_cast<Method>(app::choose("--method", text, kMethodNames));
 }
@@ -86,9 +96,11 @@ void add_scene_options(app::Options& options, SegmentOptions& o) {
   options.value({"--crop", kOfScenes}, "XMIN,XMAX,YMIN,YMAX,ZMIN,ZMAX",
                 "keep points inside this box, metres; inf and -inf: no limit (default: all)",
                 [&o](const std::string& v) { o.crop = parse_box("--crop", v); });
-  options.value({"--plane", kOfScenes}, "on|off",
-                "remove the supporting plane and what lies behind it (default: on)",
-                [&o](const std::string& v) { o.plane = parse_switch("--plane", v); });
+  options.value({"--plane", kOfScenes}, "on|off|N",
+                fmt::format("remove the supporting plane and what lies behind it; N: and at most N "
+                            "supports in all (default: on, with at most {})",
+                            d.most_supports),
+                [&o](const std::string& v) { parse_plane(v, o); });
   options.value({"--plane-distance", {kScene | kAnyMethod | kPlane, "scenes with --plane on"}}, "M",
                 fmt::format("half the thickness of the plane, metres (default: {})",
                             defaults_of(&SegmentOptions::plane_margin)),

@@ -31,6 +31,7 @@ std::string options_of(const SegmentOptions& o) {
   return object({{"max_range", number(o.max_range)},
                  {"crop", o.crop ? box_of(*o.crop) : "null"},
                  {"plane", boolean(o.plane)},
+                 {"most_supports", integer(o.most_supports)},
                  {"plane_distance", number(o.plane_margin())},
                  {"plane_noise", number(o.plane_noise)},
                  {"viewpoint", o.viewpoint ? numbers(*o.viewpoint) : "null"},

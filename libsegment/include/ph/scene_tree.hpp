@@ -76,7 +76,7 @@ constexpr bool is_support(Role role) {
 
 /// A plane that bounds a scene. It is not a segment.
 struct SceneSurface {
-  Role role = Role::support;  ///< support or wall
+  Role role = Role::support;  ///< neither object nor container
   Plane plane;
   friend bool operator==(const SceneSurface&, const SceneSurface&) = default;
 };
@@ -132,7 +132,7 @@ struct Segment {
   /// projections of the points onto the plane. Without a plane, the axes are the principal axes,
   /// longest first.
   OrientedBox oriented_box;
-  Role role = Role::object;           ///< object or container
+  Role role = Role::object;           ///< object, container, or support: a leg of a table
   StandsOn on;                        ///< its support, as far as this is visible
   std::vector<Neighbour> neighbours;  ///< all segments that it touches, first contact first
   friend bool operator==(const Segment&, const Segment&) = default;

@@ -49,6 +49,9 @@ struct SegmentOptions {
   double max_range = 2.0;        ///< largest distance from the viewpoint, metres; inf: all points
   std::optional<Box> crop = {};  ///< keep only the points inside this box
   bool plane = true;             ///< remove the supporting plane and everything behind it
+  /// Method surface: the largest number of supports, the supporting plane included, >= 1. The others
+  /// are parallel to it, such as the floor and the boards of a shelf.
+  Index most_supports = 8;
   /// The supporting plane of the previous frame, with a unit normal. The search starts from it if
   /// nearly as many points lie on it now, so that the plane does not jump between frames.
   std::optional<Plane> plane_guess = {};

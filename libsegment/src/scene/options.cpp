@@ -55,6 +55,8 @@ void validate(const CloudView& cloud, const SegmentOptions& o) {
           "a finite length of at least 0");
   require(o.steps >= 0, Setting::steps, o.steps, "at least 0");
   require(o.max_range >= 0, Setting::max_range, o.max_range, "a length of at least 0 or infinity");
+  require(o.most_supports >= 1, Setting::most_supports, static_cast<double>(o.most_supports),
+          "at least 1");
   require(std::isfinite(o.plane_noise) && o.plane_noise >= 0, Setting::plane_noise, o.plane_noise,
           "a finite length of at least 0");
   // With a smaller spacing, nearly every voxel would be a seed, and each supervoxel would have one

@@ -2,13 +2,10 @@
 #include "ph/detail/segment/bounds.hpp"
 
 #include <algorithm>
-#include <array>
 
 #include "libsegment/src/plane/plane.hpp"
-#include "libsegment/src/plane/squares.hpp"
 #include "libsegment/src/scene/parts.hpp"
 #include "libsegment/src/supports/planar.hpp"
-#include "ph/eigen.hpp"
 
 namespace ph::segment {
 namespace {
@@ -23,37 +20,18 @@ std::vector<Voxels> voxels_of(const Parts& parts) {
   return voxels;
 }
 
-/// The area of a plane that some voxels cover, in square metres.
-double covered_area(const Plane& plane, const Points& centroids, const Voxels& voxels,
-                    double voxel) {
-  constexpr double voxels_a_side = 2;  // the voxels leave no gaps in squares of this size
-  const double side = voxels_a_side * voxel;
-  const Squares paper(plane, side);
-  std::vector<std::array<double, 2>> squares;
-  for (const Index v : voxels) squares.push_back(paper.of(as_matrix(centroids).row(v).transpose()));
-  std::ranges::sort(squares);
-  const auto same = std::ranges::unique(squares);
-  squares.erase(same.begin(), same.end());
-  return static_cast<double>(squares.size()) * side * side;
-}
-
 }  // namespace
 
-std::vector<SceneSurface> find_bounds(const CloudView& cloud, const Plane& support,
-                                      const SceneTree& scene,
-                                      const std::vector<Index>& component_of, Index min_size) {
-  constexpr double least_of_a_board = 0.98;  // the cosine of the angle with the support
+std::vector<SceneSurface> find_walls(const CloudView& cloud, const Plane& support,
+                                     const SceneTree& scene, const std::vector<Index>& component_of,
+                                     Index min_size) {
   std::vector<SceneSurface> found;
   for (const Voxels& voxels : voxels_of(number_parts(component_of, min_size))) {
     const auto plane = plane_through(scene.vertices, scene.normals, voxels, cloud.viewpoint);
     if (!plane || plane->share < kLeastShareOnSurface) continue;
-    const double cosine = cosine_between(*plane, support);
     if (is_steep(*plane, support) && bounds_the_view(*plane, cloud))
       found.push_back({Role::wall, *plane});
-    else if (cosine > least_of_a_board &&
-             covered_area(*plane, scene.vertices, voxels, scene.voxel) >= kLeastTable)
-      found.push_back({Role::support, *plane});
-    if (found.size() == kMostSurfaces / 2) break;
+    if (scene.surfaces.size() + found.size() == kMostSurfaces) break;
   }
   return found;
 }

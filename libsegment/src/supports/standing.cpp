@@ -36,18 +36,6 @@ std::vector<Index> points_at(const SceneTree& scene, const SceneCut& cut, const 
   return count;
 }
 
-/// For each vertex, the number of the support on which it is, if that support was found among the
-/// components (not removed). Otherwise 0.
-std::vector<std::uint8_t> boards_of(const SceneTree& scene, const SceneCut& cut) {
-  std::vector<std::uint8_t> boards(scene.cells.size());
-  for (std::size_t k = 0; k < scene.points.size(); ++k) {
-    const std::uint8_t number = cut.surface_labels[static_cast<std::size_t>(scene.points[k])];
-    if (number > scene.removed && is_support(scene.surfaces[number - 1U].role))
-      boards[scene.vertex_of_point[k]] = number;
-  }
-  return boards;
-}
-
 /// A contact of one segment with another.
 struct Contact {
   Index pairs = 0;
@@ -125,23 +113,14 @@ void find_what_it_stands_on(const SceneTree& scene, std::span<const VoxelPair> p
   const std::vector<double> ends = ends_of(cut, heights, kLowerEnd);
   find_removed_supports(scene, ends, cut);
   find_legs(scene, ends_of(cut, heights, kUpperEnd), cut);
-  const std::vector<std::uint8_t> boards = boards_of(scene, cut);
-  std::map<std::pair<std::uint32_t, std::uint8_t>, Index> at_boards;
   std::map<std::pair<std::uint32_t, std::uint32_t>, Contact> contacts;
   for (const VoxelPair& pair : pairs) {
     const std::uint32_t a = cut.vertex_labels[pair.u], b = cut.vertex_labels[pair.v];
-    if (a == b) continue;
-    if (a == 0 || b == 0) {
-      const std::uint8_t board = a == 0 ? boards[pair.u] : boards[pair.v];
-      if (board != 0) ++at_boards[{a + b, board}];
-      continue;
-    }
+    if (a == b || a == 0 || b == 0) continue;
     Contact& contact = contacts[std::minmax(a, b)];
     ++contact.pairs;
     contact.heights += (heights[pair.u] + heights[pair.v]) / 2;
   }
-  for (const auto& [both, count] : at_boards)
-    if (count >= kFewest) cut.segments[both.first - 1].on = {both.second, 0};
   constexpr double voxels_up = 3;
   const double reach = voxels_up * scene.voxel;
   std::vector<Index> most(cut.segments.size() + 1);

@@ -72,10 +72,10 @@ void set_roles(const std::vector<Removed>& supports, const Removed* lowest, cons
 }  // namespace
 
 void clear_surfaces(const std::vector<Index>& in_range, const std::vector<Plane>& planes,
-                    const Sample& sample, const PlaneSight& sight, Scene& scene, SceneTree& tree) {
+                    const Sample& sample, const PlaneSight& sight, Index most_supports,
+                    Scene& scene, SceneTree& tree) {
   // A share; in scenes in their sensor's frame, it is at most 0.03.
   constexpr double much_hidden = 0.1;
-  constexpr std::size_t most_boards = 7;
   const CloudView& cloud = scene.cloud;
   const Plane& plane = *scene.plane;
   add_surface(Role::support, plane, {}, tree);
@@ -83,7 +83,7 @@ void clear_surfaces(const std::vector<Index>& in_range, const std::vector<Plane>
   const bool has_walls = tree.surfaces.size() > 1;
   std::vector<Board> boards =
       find_boards(cloud, points, has_walls ? draw_sample(cloud, points, scene.margin) : sample,
-                  plane, scene.margin, most_boards);
+                  plane, scene.margin, static_cast<std::size_t>(most_supports) - 1);
   std::ranges::sort(boards, {}, [](const Board& board) { return -board.plane.offset; });
   // Nothing may be seen below the lowest support. Otherwise, the scene ends at the plane.
   const bool has_lower = !boards.empty() && boards.front().plane.offset > plane.offset &&

@@ -13,8 +13,9 @@ namespace ph::segment {
 /// and the supports that are parallel to it. The objects on the supports stay. The surfaces and
 /// their roles are added to the tree, the supporting plane first.
 /// @param in_range the points in range. @param planes large planes other than the support.
-/// @param sample a sample of the points in range.
+/// @param sample a sample of the points in range. @param most_supports at least 1.
 void clear_surfaces(const std::vector<Index>& in_range, const std::vector<Plane>& planes,
-                    const Sample& sample, const PlaneSight& sight, Scene& scene, SceneTree& tree);
+                    const Sample& sample, const PlaneSight& sight, Index most_supports,
+                    Scene& scene, SceneTree& tree);
 
 }  // namespace ph::segment

@@ -131,8 +131,11 @@ class TreeReader {
   void read_surfaces() {
     for (std::int64_t k = 0; k < surfaces_; ++k) {
       SceneSurface& surface = scene_.surfaces.emplace_back();
-      // The first surface is the supporting plane.
-      surface.role = static_cast<Role>(integer("role of a surface", 1, k == 0 ? 1 : 2));
+      surface.role = static_cast<Role>(integer("role of a surface", 1, std::ssize(kRoleNames) - 1));
+      if (surface.role == Role::container)
+        fail("role of a surface", "a container", "a surface, which is no segment");
+      if (k == 0 && !is_support(surface.role))
+        fail("role of the first surface", std::string(role_name(surface.role)), "a support");
       surface.plane.normal = finite("normal of a surface");
       require_unit("normal of a surface", surface.plane.normal);
       surface.plane.offset = number("offset of a surface");

@@ -43,7 +43,8 @@ class Segment(NamedTuple):
         The labels of the objects that it touches, each with the value at which the two meet, in the
         order of these values.
     role : str
-        "object" or "container". A container, such as a bin, has at least three other objects in it.
+        "object", "container" or "support". A container, such as a bin, has at least three other
+        objects in it. A support is a leg of a table.
     on : tuple of (str, int) or None
         What it stands on: ("surface", i), where i is an index into `Segmentation.surfaces`, or
         ("object", label). None if this is not visible.
@@ -78,8 +79,9 @@ class SceneSurface(NamedTuple):
     Attributes
     ----------
     role : str
-        "support": a plane that objects stand on, such as a table, a board or the floor. "wall": a
-        plane behind which nothing is visible.
+        "support": a plane that objects stand on, such as a table. "floor": the lowest of several
+        supports. "shelf": a support with another one above or below it. "wall": a plane behind
+        which nothing is visible. "ceiling": such a plane that faces the supports.
     plane : tuple of float
         (a, b, c, d) of ax + by + cz + d = 0. The left-hand side is positive for points on the same
         side of the plane as the camera.

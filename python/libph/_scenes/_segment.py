@@ -34,7 +34,7 @@ def segment(cloud: Any, *, method: str | None = None, supervoxels: float | None 
             voxel: float | None = None, min_persistence: float | None = None,
             min_part: int | None = None, min_size: int | None = None,
             objects: bool | None = None, max_range: float = 2.0, crop: ArrayLike | None = None,
-            plane: bool = True, plane_distance: float | None = None,
+            plane: bool | int = True, plane_distance: float | None = None,
             plane_noise: float | None = None, previous: Segmentation | None = None,
             viewpoint: Sequence[float] | None = None,
             distance: float | None = None, steps: int | str | None = None, check: bool = True,
@@ -74,8 +74,9 @@ def segment(cloud: Any, *, method: str | None = None, supervoxels: float | None 
         Points farther from the viewpoint are left out.
     crop : array_like, optional
         Points outside this box are left out: xmin, xmax, ymin, ymax, zmin, zmax.
-    plane : bool
-        If True, the supporting plane and everything behind it are removed.
+    plane : bool or int
+        If True, the supporting plane and everything behind it are removed. A number N >= 1 is the
+        most supports, such as the boards of a shelf; True means at most 8.
     plane_distance : float, optional
         Half the thickness of the plane. Default: 0.005; "paper": 0.006.
     plane_noise : float, optional
@@ -171,7 +172,13 @@ def _options_of(o: dict[str, Any]) -> _core.SegmentOptions:
                              "or no method")
         method = "supervoxels"
     method = "surface" if method is None else _options.choice("method", method, _METHODS)
-    plane = _options.flag("plane", o["plane"])
+    supports = None
+    if type(o["plane"]) is int:
+        supports = _options.whole("plane", o["plane"], 1, 255)
+    plane = supports is not None or _options.flag("plane", o["plane"])
+    if supports is not None and method != "surface":
+        raise UsageError(f"plane: found {supports} with method {method!r}, expected True or False, "
+                         "or method 'surface'")
     idle = [(name, plane, "plane=True") for name in ("plane_distance", "plane_noise", "previous")]
     idle += [(name, method != "paper", "method 'surface' or 'supervoxels'")
              for name in ("min_persistence", "min_part", "plane_noise")]
@@ -185,6 +192,7 @@ def _options_of(o: dict[str, Any]) -> _core.SegmentOptions:
         min_size=_if_given(_at_least_one, "min_size", o),
         max_range=_options.real("max_range", o["max_range"], "a length, at least 0", 0),
         crop=_if_given(_box, "crop", o), plane=plane,
+        most_supports=supports,
         plane_distance=_if_given(_options.positive, "plane_distance", o),
         plane_noise=_if_given(_length, "plane_noise", o, _NOISE),
         plane_guess=_if_given(_plane_of, "previous", o),

@@ -21,8 +21,8 @@ class Tracked(NamedTuple):
     number : int
         The number of the object, which stays the same from frame to frame.
     role : str
-        "object", "container", "support" or "wall". A wall that one frame shows as an object keeps
-        the role "wall".
+        "object", "container", or a role of a surface (see `SceneSurface`). A wall that one frame
+        shows as an object keeps the role "wall".
     on : tuple of (str, int) or None
         What it stands on, in the form of `Segment.on` of that frame.
     """

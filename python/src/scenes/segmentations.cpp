@@ -270,8 +270,8 @@ void bind_segmentations(py::module_& m) {
       .def(py::init([](const std::string& method, std::optional<double> voxel,
                        std::optional<Index> min_size, double max_range,
                        const std::optional<std::array<Vec3, 2>>& crop, bool plane,
-                       std::optional<double> plane_distance, double plane_noise,
-                       const std::optional<std::array<double, 5>>& plane_guess,
+                       std::optional<Index> most_supports, std::optional<double> plane_distance,
+                       double plane_noise, const std::optional<std::array<double, 5>>& plane_guess,
                        std::optional<Vec3> viewpoint, bool check,
                        std::optional<double> min_persistence, bool objects,
                        std::optional<Index> min_part, double spacing, double distance, int steps) {
@@ -285,6 +285,7 @@ void bind_segmentations(py::module_& m) {
              o.max_range = max_range;
              if (crop) o.crop = segment::Box{(*crop)[0], (*crop)[1]};
              o.plane = plane;
+             o.most_supports = most_supports.value_or(o.most_supports);
              o.plane_distance = plane_distance;
              o.plane_noise = plane_noise;
              if (plane_guess) {
@@ -302,10 +303,10 @@ void bind_segmentations(py::module_& m) {
              return o;
            }),
            py::kw_only(), py::arg("method"), py::arg("voxel"), py::arg("min_size"),
-           py::arg("max_range"), py::arg("crop"), py::arg("plane"), py::arg("plane_distance"),
-           py::arg("plane_noise"), py::arg("plane_guess"), py::arg("viewpoint"), py::arg("check"),
-           py::arg("min_persistence"), py::arg("objects"), py::arg("min_part"), py::arg("spacing"),
-           py::arg("distance"), py::arg("steps"));
+           py::arg("max_range"), py::arg("crop"), py::arg("plane"), py::arg("most_supports"),
+           py::arg("plane_distance"), py::arg("plane_noise"), py::arg("plane_guess"),
+           py::arg("viewpoint"), py::arg("check"), py::arg("min_persistence"), py::arg("objects"),
+           py::arg("min_part"), py::arg("spacing"), py::arg("distance"), py::arg("steps"));
   py::class_<SegmentedScene>(m, "Segmentation")
       .def_property_readonly("has_cloud",
                              [](const SegmentedScene& s) { return s.cloud() != nullptr; })

@@ -62,7 +62,13 @@ export function fromHex(text: string): Rgb {
 }
 
 /// Colours of the surfaces that bound a scene, by role; no segment has them.
-export const kSurfaces = { support: "#b9ac93", wall: "#93a4b9" } as const;
+export const kSurfaces = {
+  support: "#b9ac93",
+  floor: "#a39a8b",
+  shelf: "#c7b9a0",
+  wall: "#93a4b9",
+  ceiling: "#a9b6c6",
+} as const;
 
 /// The index of a colour among the seven colours of segments; -1 if it is none of them.
 export function numberOfColour([r, g, b]: Rgb): number {

@@ -26,13 +26,15 @@ export interface Provenance {
   notes?: Record<string, string>;
 }
 
+export type SurfaceRole = "support" | "floor" | "shelf" | "wall" | "ceiling";
+
 /// A segment of the program's own answer; its index in the list is its label minus one.
 export interface SegmentMeta {
   number: number; // the number that names the segment in the files of the program
   colour: string; // "#rrggbb"
   persistence: number | null; // null: infinite
-  // The roles "support" and "wall" are known only from earlier frames.
-  role: "object" | "container" | "support" | "wall";
+  // "support": a leg of a table. The roles of surfaces are also known from earlier frames.
+  role: "object" | "container" | SurfaceRole;
   on_surface?: number;
   on_segment?: number; // the number of the segment that it stands on
 }
@@ -40,7 +42,7 @@ export interface SegmentMeta {
 /// The properties of a segmentation in addition to its labels.
 export interface SceneMeta {
   segments: SegmentMeta[];
-  surfaces: { role: "support" | "wall" }[]; // by number, from 1
+  surfaces: { role: SurfaceRole }[]; // by number, from 1
   removed: number; // how many of these surfaces have no leaf
   flat: number; // least share of a surface's vertices on its plane
   objects: boolean; // true if the answer joins the parts of an object

@@ -4,10 +4,12 @@ import { counted, short } from "../common/number_format";
 import { listed } from "./words";
 import type { SceneMeta, SegmentMeta } from "./meta";
 
+const kSurfaceRoles: readonly string[] = ["support", "floor", "shelf", "wall", "ceiling"];
+
 /// "support 1": the name of a surface; its number is the same as in `--surfaces` and in the JSON.
 export function nameOfSurface({ surfaces }: SceneMeta, number: number): string {
-  const role = surfaces[number - 1]?.role;
-  return `${role === "support" || role === "wall" ? role : "surface"} ${number}`;
+  const role = surfaces[number - 1]?.role ?? "";
+  return `${kSurfaceRoles.includes(role) ? role : "surface"} ${number}`;
 }
 
 /// "on support 1" or "on 3"; the role of the segment if it does not visibly stand on anything.
@@ -18,7 +20,7 @@ export function standing(scene: SceneMeta, segment: SegmentMeta): string {
 }
 
 function roleOf({ role }: SegmentMeta): string {
-  return ["container", "support", "wall"].includes(role) ? role : "object";
+  return role === "container" || kSurfaceRoles.includes(role) ? role : "object";
 }
 
 /// "object on support 1, confidence 4.2"
@@ -33,6 +35,6 @@ export function factsOf(scene: SceneMeta, segment: SegmentMeta): string {
 /// "1 support and 2 walls"; empty if there are none.
 export function surfacesInWords({ surfaces }: SceneMeta): string {
   const count = (role: string) => surfaces.filter((s) => s.role === role).length;
-  const words = ["support", "wall"].filter((role) => count(role) > 0);
+  const words = kSurfaceRoles.filter((role) => count(role) > 0);
   return listed(words.map((role) => counted(count(role), role)));
 }

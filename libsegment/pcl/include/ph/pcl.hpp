@@ -208,6 +208,9 @@ class PersistenceSegmentation : public ::pcl::PCLBase<PointT> {
   /// If true, the supporting plane and everything behind it are removed.
   void setPlaneRemoval(bool remove) { options_.plane = remove; }
   bool getPlaneRemoval() const { return options_.plane; }
+  /// The largest number of supports, the supporting plane included, at least 1.
+  void setMostSupports(Index count) { options_.most_supports = count; }
+  Index getMostSupports() const { return options_.most_supports; }
   /// Half the thickness of the plane, in metres.
   void setPlaneDistance(double metres) { options_.plane_distance = metres; }
   double getPlaneDistance() const { return options_.plane_margin(); }
