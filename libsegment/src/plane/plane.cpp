@@ -204,16 +204,15 @@ PlaneSearch search_from(Candidate found, const Sample& sample, const Eigen::Vect
 
 PlaneSearch find_plane(const CloudView& cloud, const std::vector<Index>& points,
                        const PlaneMargin& margin, const std::optional<Plane>& guess) {
+  if (points.size() < 3) return {std::nullopt, std::string(kTooFewPoints)};
   return find_plane(draw_sample(cloud, points, margin), cloud.viewpoint, guess);
 }
 
 PlaneSearch find_plane(const Sample& sample, const Vec3& viewpoint,
                        const std::optional<Plane>& guess) {
-  // Points at the same place count once in a sample.
-  if (sample.size() < 3) return {std::nullopt, "no plane: fewer than three points in range"};
   const Eigen::Vector3d eye(viewpoint.data());
   std::optional<Candidate> found = as_good_as_before(guess, sample);
-  if (!found) found = best_hypothesis(sample, kOfSearch, eye);
+  if (!found && sample.size() >= 3) found = best_hypothesis(sample, kOfSearch, eye);
   if (!found) return {std::nullopt, "no plane: the points in range lie on a line or at one point"};
   return search_from(*found, sample, eye, kLeastShareOfSupport);
 }

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "ph/segment.hpp"
@@ -37,6 +38,8 @@ struct PlaneSearch {
   double noise_along = 0;
   double range = 0;  ///< the median distance of the plane's points from the viewpoint, in metres
 };
+
+inline constexpr std::string_view kTooFewPoints = "no plane: fewer than three points in range";
 
 /// The least area of a table or of a board on which things stand, in square metres. It is twice the
 /// area of a large board game.

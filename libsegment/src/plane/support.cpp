@@ -35,7 +35,8 @@ std::vector<PlaneSearch> planes_of(const PlaneSearch& first, const Sample& sampl
     next.plane->share *= static_cast<double>(rest.size()) / static_cast<double>(sample.size());
     if (next.plane->share < least_share) break;
     rest = points_off(*next.plane, kMarginsOfPlane, rest);
-    const Extent extent = extent_of(next, sample);
+    // A wall beside a table is not the table's other side.
+    const Extent extent = extent_of(next, things);
     if (extent.area_of_hull() < kLeastTable || extent.goes_on_behind()) continue;
     things = points_off(*next.plane, kMarginsOfPlane, things);
     planes.push_back(std::move(next));

@@ -29,7 +29,7 @@ std::vector<Board> find_boards(const CloudView& cloud, const std::vector<Index>&
   constexpr int most_times = 8;
   constexpr double least_share_of_floor = 0.02;
   constexpr std::size_t fewest = 50;   // points of the sample
-  constexpr double least_step = 0.15;  // metres between parallel boards
+  constexpr double least_step = 0.12;  // metres between parallel boards
   constexpr double thickness = 0.01;   // half of it, in metres, during the search
   const Eigen::Vector3d eye(cloud.viewpoint.data()), normal(support.normal.data());
   std::vector<double> offsets{support.offset};

@@ -59,8 +59,12 @@ void set_roles(const std::vector<Removed>& supports, const Removed* lowest, cons
              are_over(other.board.extent, support.points, cloud);
     });
   };
+  constexpr double least_height = 0.3;  // of a table above the floor, in metres
   const Removed* floor = nullptr;
-  if (lowest != nullptr && supports.size() > 1 && !is_below_or_above_another(*lowest, nullptr)) {
+  const bool is_low = lowest != nullptr && std::ranges::any_of(supports, [&](const Removed& other) {
+                        return lowest->board.plane.offset - other.board.plane.offset > least_height;
+                      });
+  if (is_low && !is_below_or_above_another(*lowest, nullptr)) {
     floor = lowest;
     tree.surfaces[floor->surface].role = Role::floor;
   }

@@ -156,7 +156,7 @@ TEST(Surfaces, WhatStandsOnTheFloorIsFound) {
   for (const auto& [block, label] : {std::pair{0, low}, std::pair{1, high}}) {
     const std::uint32_t number = s.cut.segments[label - 1].on.surface;
     ASSERT_GE(number, 1U) << block;
-    EXPECT_EQ(s.tree.surfaces[number - 1].role, Role::support);
+    EXPECT_EQ(s.tree.surfaces[number - 1].role, block == 0 ? Role::floor : Role::support);
     EXPECT_GT(room.share_on(s, block, static_cast<int>(number)), 0.8) << block;
   }
 }
@@ -193,7 +193,8 @@ TEST(Surfaces, ALargeBoardIsASupportASmallOneIsAnObject) {
     if (width > 0.5) {
       EXPECT_EQ(of_board, 0U);
       ASSERT_EQ(s.tree.surfaces.size(), 2U);
-      for (const SceneSurface& surface : s.tree.surfaces) EXPECT_EQ(surface.role, Role::support);
+      EXPECT_EQ(s.tree.surfaces[0].role, Role::support);
+      EXPECT_EQ(s.tree.surfaces[1].role, Role::shelf);
       EXPECT_GT(room.share_on(s, 1, static_cast<int>(on.surface)), 0.9);
     } else {
       EXPECT_EQ(s.tree.surfaces.size(), 1U);
