@@ -85,7 +85,7 @@ bool Extent::goes_on_behind() const {
 }
 
 bool Extent::goes_on_beside() const {
-  constexpr double most_beside = 0.25;  // a share of the points on the plane
+  constexpr double most_beside = 0.15;  // a share of the points on the plane
   Index on = 0, below = 0;
   for (const Square& square : all_) {
     const Count& count = *find(square);

@@ -59,8 +59,9 @@ std::vector<Board> find_boards(const CloudView& cloud, const std::vector<Index>&
     // Of a floor, little may be seen beside the support.
     const bool is_floor =
         plane.offset > support.offset && share >= least_share_of_floor && is_lowest(plane, cloud);
-    if (!is_floor && (board.extent.area_of_hull() < kLeastTable || board.extent.goes_on_beside()))
-      continue;
+    const bool is_large = board.extent.area_of_hull() >= kLeastTable;  // mutant: board-hull
+    const bool is_box = board.extent.goes_on_beside();                 // mutant: board-beside
+    if (!is_floor && (!is_large || is_box)) continue;
     offsets.push_back(plane.offset);
     boards.push_back(std::move(board));
   }
@@ -73,6 +74,7 @@ Cleared remove_board(const CloudView& cloud, const std::vector<Index>& points, c
     const float* p = cloud.point(static_cast<std::size_t>(i));
     const double height = board.plane.signed_distance(p[0], p[1], p[2]);
     const double limit = board.margin(cloud, p);
+    // mutant: board-below
     if (height > limit || height < -std::max(limit, kThickestBoard) || !board.extent.is_over(p)) {
       cleared.beyond.push_back(i);
     } else {

@@ -74,7 +74,7 @@ void find_removed_supports(const SceneTree& scene, const std::vector<double>& en
       if (count[segment.label] < kFewest) continue;
       const double height = height_of(surface.plane, scene.surfaces.front().plane, segment);
       const double away = std::abs(height - ends[segment.label]);
-      if (away >= nearest[segment.label]) continue;
+      if (away >= nearest[segment.label]) continue;  // mutant: standing-nearest
       nearest[segment.label] = away;
       segment.on = {static_cast<std::uint32_t>(s + 1), 0};
     }
@@ -92,6 +92,7 @@ void find_legs(const SceneTree& scene, const std::vector<double>& tops, SceneCut
     for (Segment& segment : cut.segments) {
       const double below =
           height_of(surface.plane, scene.surfaces.front().plane, segment) - tops[segment.label];
+      // mutant: role-leg
       if (below >= 0 && below <= kThickestBoard + 2 * scene.voxel &&
           segment.oriented_box.size[2] >= least_slenderness * segment.oriented_box.size[0])
         segment.role = Role::support;

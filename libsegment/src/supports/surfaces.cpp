@@ -61,9 +61,11 @@ void set_roles(const std::vector<Removed>& supports, const Removed* lowest, cons
   };
   constexpr double least_height = 0.3;  // of a table above the floor, in metres
   const Removed* floor = nullptr;
-  const bool is_low = lowest != nullptr && std::ranges::any_of(supports, [&](const Removed& other) {
-                        return lowest->board.plane.offset - other.board.plane.offset > least_height;
-                      });
+  const auto is_above = [&](const Removed& other) {
+    // mutant: role-floor
+    return lowest->board.plane.offset - other.board.plane.offset > least_height;
+  };
+  const bool is_low = lowest != nullptr && std::ranges::any_of(supports, is_above);
   if (is_low && !is_below_or_above_another(*lowest, nullptr)) {
     floor = lowest;
     tree.surfaces[floor->surface].role = Role::floor;

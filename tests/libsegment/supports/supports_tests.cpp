@@ -203,6 +203,75 @@ TEST(Surfaces, ALargeBoardIsASupportASmallOneIsAnObject) {
   }
 }
 
+TEST(Surfaces, TheTopOfALargeBoxIsNoBoard) {
+  const Room room({{{-2, -2, -0.02}, {2, 2, 0}}, {{-0.3, 0, 0}, {0.3, 0.5, 0.2}}});
+  const Segmentation s = room.segmented();
+  EXPECT_EQ(s.tree.surfaces.size(), 1U);
+  EXPECT_NE(room.label_of(s, 1), 0U);
+}
+
+TEST(Surfaces, AShelfHasBoards) {
+  // Three boards, each 0.3 m above the next one. From above, each hides a part of the lower one.
+  const Block low{{-0.5, -0.3, -0.32}, {0.5, 0.3, -0.3}}, middle{{-0.5, 0, -0.02}, {0.5, 0.3, 0}},
+      high{{-0.5, 0.2, 0.28}, {0.5, 0.6, 0.3}};
+  const Block on_low{{-0.1, -0.2, -0.3}, {0, -0.1, -0.2}}, on_middle{{0.1, 0, 0}, {0.2, 0.1, 0.1}},
+      on_high{{-0.2, 0.3, 0.3}, {-0.1, 0.4, 0.4}};
+  const Room room({low, middle, high, on_low, on_middle, on_high});
+  const Segmentation s = room.segmented();
+  ASSERT_EQ(s.tree.surfaces.size(), 3U);
+  EXPECT_EQ(s.cut.segments.size(), 3U);
+  for (const int board : {0, 1, 2}) {
+    const std::uint32_t label = room.label_of(s, board + 3);
+    ASSERT_NE(label, 0U) << board;
+    EXPECT_GT(room.share_on(s, board, static_cast<int>(s.cut.segments[label - 1].on.surface)), 0.9)
+        << board;
+  }
+  const Segmentation one = room.segmented({.most_supports = 1});
+  EXPECT_EQ(one.tree.surfaces.size(), 1U);
+  EXPECT_THROW(room.segmented({.most_supports = 0}), Error);
+}
+
+TEST(Surfaces, ATableHasLegs) {
+  const auto leg = [](double x, double y) {
+    return Block{{x, y, -0.7}, {x + 0.05, y + 0.05, -0.02}};
+  };
+  const Block floor{{-3, -3, -0.72}, {3, 3, -0.7}}, table{{-0.5, -0.3, -0.02}, {0.5, 0.3, 0}};
+  // What is as high as the table, but not slender, and what is slender, but lower, is no leg.
+  const Block bin{{-0.9, -0.3, -0.7}, {-0.65, 0, -0.04}},
+      post{{0.7, -0.2, -0.7}, {0.75, -0.15, -0.2}};
+  // The crate is higher than the table, but it stands on the floor.
+  const Block crate{{0.6, 0.1, -0.7}, {0.9, 0.4, 0.2}};
+  const Room room({floor, table, leg(-0.5, -0.3), leg(0.45, -0.3), bin, post, crate, kLeft});
+  const Segmentation s = room.segmented();
+  const auto segment = [&](int block) { return s.cut.segments.at(room.label_of(s, block) - 1); };
+  for (const int block : {2, 3}) EXPECT_EQ(segment(block).role, Role::support) << block;
+  for (const int block : {4, 5, 6, 7}) EXPECT_EQ(segment(block).role, Role::object) << block;
+  for (const int block : {4, 5, 6})
+    EXPECT_GT(room.share_on(s, 0, static_cast<int>(segment(block).on.surface)), 0.8) << block;
+  EXPECT_GT(room.share_on(s, 1, static_cast<int>(segment(7).on.surface)), 0.8);
+}
+
+TEST(Surfaces, ACeilingFacesTheFloor) {
+  std::vector<float> xyz;
+  const auto add = [&](double x, double y, double z) {
+    for (const double v : {x, y, z}) xyz.push_back(static_cast<float>(v));
+  };
+  for (int i = 0; i < 200; ++i)
+    for (int j = 0; j < 200; ++j) {
+      const double x = 0.01 * i, y = 0.01 * j - 1;
+      const bool is_box = x > 0.8 && x < 1.1 && std::abs(y) < 0.15;
+      add(x, y, is_box ? 0.2 : 0);
+      if (x > 1) add(x, y, 2);
+    }
+  const Vec3 eye{0, 0, 1.2};
+  const Segmentation s = segment(CloudView{xyz, eye}, {.max_range = 4, .viewpoint = eye});
+  ASSERT_EQ(s.tree.surfaces.size(), 2U);
+  EXPECT_EQ(s.tree.surfaces[0].role, Role::support);
+  EXPECT_EQ(s.tree.surfaces[1].role, Role::ceiling);
+  expect_direction(s.tree.surfaces[1].plane.normal, {0, 0, -1});
+  EXPECT_EQ(s.cut.segments.size(), 1U);
+}
+
 TEST(Surfaces, AStackStandsOnItsLowestBox) {
   const Block large{{-0.15, 0, 0}, {0.15, 0.25, 0.15}},
       small{{-0.06, 0.08, 0.15}, {0.06, 0.2, 0.25}};
