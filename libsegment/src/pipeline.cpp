@@ -60,10 +60,13 @@ Scene clear_scene(const CloudView& cloud, const SegmentOptions& options, StageCl
   const bool is_paper = options.method == Method::paper;
   if (!is_paper) scene.margin.noise = options.noise_floor();
   const Sample sample = draw_sample(cloud, in_range, scene.margin);
-  SupportSearch search{{std::nullopt, std::string(kTooFewPoints)}, {}};
-  if (in_range.size() >= 3)
-    search = is_paper ? SupportSearch{find_plane(sample, cloud.viewpoint, options.plane_guess), {}}
-                      : find_support(cloud, sample, options.plane_guess);
+  SupportSearch search;
+  if (in_range.size() < 3)
+    search.support.note = kTooFewPoints;
+  else if (is_paper)
+    search.support = find_plane(sample, cloud.viewpoint, options.plane_guess);
+  else
+    search = find_support(cloud, sample, options.plane_guess);
   PlaneSearch& support = search.support;
   if (!is_paper && options.plane_noise > 0) {
     constexpr double deviations = 4;

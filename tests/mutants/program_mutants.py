@@ -107,7 +107,7 @@ MUTANTS = [
         ("boards: the top of a box is one", "board-beside", "board.extent.goes_on_beside()", "false"),
         ("boards: what is hidden is no part of one", "board-hull", "area_of_hull", "area"),
         ("boards: they hide what is below them", "board-below", "|| height < -std::max(limit, kThickestBoard)", ""),
-        ("roles: any lowest support is a floor", "role-floor", "> least_height", "> 0"),
+        ("roles: any lowest support is a floor", "role-floor", "> least_height", "> 0 * least_height"),
         ("roles: what is high is a leg", "role-leg", "segment.oriented_box.size[2] >=", "0 <="),
         ("standing: on any support that is reached", "standing-nearest", "away >= nearest[segment.label]", "false"),
         ("containers: two objects make one", "container-fewest", "3", "2"),

@@ -212,7 +212,7 @@ PlaneSearch find_plane(const Sample& sample, const Vec3& viewpoint,
                        const std::optional<Plane>& guess) {
   const Eigen::Vector3d eye(viewpoint.data());
   std::optional<Candidate> found = as_good_as_before(guess, sample);
-  if (!found && sample.size() >= 3) found = best_hypothesis(sample, kOfSearch, eye);
+  if (!found && !(sample.size() < 3)) found = best_hypothesis(sample, kOfSearch, eye);
   if (!found) return {std::nullopt, "no plane: the points in range lie on a line or at one point"};
   return search_from(*found, sample, eye, kLeastShareOfSupport);
 }
