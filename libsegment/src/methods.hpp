@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "libsegment/src/objects/objects.hpp"
-#include "libsegment/src/plane/plane.hpp"
 #include "libsegment/src/supports/containers.hpp"
 #include "libsegment/src/supports/stages.hpp"
+#include "libsegment/src/supports/surfaces.hpp"
 #include "libsegment/src/voxels/voxel_grid.hpp"
 #include "ph/detail/complex/filtered_graph.hpp"
 #include "ph/scene_tree.hpp"
@@ -27,27 +27,6 @@ class StageClock {
   const RunContext& context_;
   std::vector<Stage>& stages_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
-
-/// A support that was removed, with the points of its strip (see Cleared).
-struct OtherSupport {
-  Plane plane;
-  PlaneMargin margin;
-  std::vector<Index> strip;
-};
-
-/// A cloud and its supporting plane. `points` contains the points in range, divided by the plane.
-/// Without a plane, all points are in `points.beyond`.
-struct Scene {
-  CloudView cloud;
-  std::optional<Plane> plane;
-  PlaneMargin margin;
-  double noise = 0, range = 0;  ///< PlaneSearch::noise_along and PlaneSearch::range of the plane
-  std::vector<Index> in_range;  ///< all points in range, if there is a plane
-  Cleared points;
-  std::vector<OtherSupport> others;  ///< the supports that were removed in addition to the plane
-  /// points.beyond before boards and walls were removed; empty if there are none
-  std::vector<Index> before;
 };
 
 /// The graph that a method makes of a scene. The vertices of `grid` belong to `points`.

@@ -293,7 +293,7 @@ def read_scene(path: bytes, run: RunOptions) -> Cloud | Segmentation: ...
 class SegmentOptions(_Object):
     def __init__(self, *, method: str, voxel: float | None, min_size: int | None,
                  max_range: float, crop: list[list[float]] | None, plane: bool,
-                 plane_distance: float | None, plane_noise: float,
+                 most_supports: int | None, plane_distance: float | None, plane_noise: float,
                  plane_guess: tuple[float, ...] | None, viewpoint: list[float] | None,
                  check: bool, min_persistence: float | None, objects: bool, min_part: int | None,
                  spacing: float, distance: float, steps: int) -> None: ...

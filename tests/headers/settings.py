@@ -17,7 +17,7 @@ OPTION = re.compile(r"(?<![\w!-])--[a-z]")
 # Settings of C++ that are not options of any program.
 NO_OPTIONS = {"cell", "patience", "plane_guess"}
 # Settings whose options have other names; see apps/common/terminal/words.cpp.
-OTHER_NAMES = {"spacing": "supervoxels", "first_meeting": "explain"}
+OTHER_NAMES = {"spacing": "supervoxels", "first_meeting": "explain", "most_supports": "plane"}
 
 
 def options_in_texts(root):

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""A depth camera's view of a synthetic table with boxes in front of a wall with a board, as an
-organised PCD file."""
+"""A depth camera's view of a synthetic table with boxes in front of a wall with a board, and of a
+small wall at the side, as an organised PCD file."""
 import math
 import random
 import struct
@@ -11,7 +11,8 @@ LARGE, SMALL = ((-0.12, -0.05, 0.0), (0.06, 0.09, 0.13)), ((-0.07, -0.02, 0.13),
 BESIDE = ((0.13, -0.05, 0.0), (0.27, 0.07, 0.11))
 WALL = ((-0.5, 0.6, -0.1), (0.5, 0.62, 1.5))
 BOARD = ((-0.45, 0.25, 0.25), (0.45, 0.58, 0.27))
-BLOCKS = (TABLE, LARGE, SMALL, BESIDE, WALL, BOARD)
+PANEL = ((-0.6, 0.1, -0.1), (-0.58, 0.22, 0.2))
+BLOCKS = (TABLE, LARGE, SMALL, BESIDE, WALL, BOARD, PANEL)
 
 
 def _entry(block, ray):

@@ -17,6 +17,7 @@ std::string option_with(Setting setting, std::string_view value) {
 std::string option_name(Setting setting) {
   if (setting == Setting::spacing) return "supervoxels";
   if (setting == Setting::first_meeting) return "explain";
+  if (setting == Setting::most_supports) return "plane";
   std::string name(name_of(setting));
   std::ranges::replace(name, '_', '-');
   return name;

@@ -6,8 +6,8 @@
 #include <map>
 #include <utility>
 
+#include "libsegment/src/plane/outline.hpp"
 #include "libsegment/src/plane/plane.hpp"
-#include "libsegment/src/scene/outline.hpp"
 
 namespace ph::segment {
 namespace {
@@ -79,7 +79,7 @@ bool Extent::goes_on_behind() const {
   const bool is_large = area() >= kLeastTable;
   const auto behind = std::ranges::count_if(all_, [&](const Square& square) {
     const Count& count = *find(square);
-    return count.on > 0 && (is_large ? count.deep : count.behind) > 0;
+    return count.on > 0 && kLeastRatio * (is_large ? count.deep : count.behind) > count.on;
   });
   return static_cast<double>(behind) > most_behind * static_cast<double>(seen_);
 }

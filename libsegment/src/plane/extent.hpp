@@ -43,11 +43,10 @@ class Extent {
   struct Count {
     Index on = 0, in_front = 0, behind = 0, deep = 0;
     /// True if the plane is seen, and nothing crosses it.
-    bool is_clear() const {
-      constexpr Index least_ratio = 4;
-      return on > 0 && on >= least_ratio * deep;
-    }
+    bool is_clear() const { return on > 0 && on >= kLeastRatio * deep; }
   };
+  /// Where the points behind a plane are fewer, they may be noise.
+  static constexpr Index kLeastRatio = 4;
 
   static std::uint64_t key_of(const Square& square);
   const Count* find(const Square& square) const { return counts_.find(key_of(square)); }

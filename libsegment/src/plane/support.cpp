@@ -37,7 +37,7 @@ std::vector<PlaneSearch> planes_of(const PlaneSearch& first, const Sample& sampl
     rest = points_off(*next.plane, kMarginsOfPlane, rest);
     // A wall beside a table is not the table's other side.
     const Extent extent = extent_of(next, things);  // mutant: support-beside
-    if (extent.area_of_hull() < kLeastTable || extent.goes_on_behind()) continue;
+    if (extent.area() < kLeastTable || extent.goes_on_behind()) continue;
     things = points_off(*next.plane, kMarginsOfPlane, things);
     planes.push_back(std::move(next));
   }

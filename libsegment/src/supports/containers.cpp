@@ -9,8 +9,8 @@
 #include <span>
 #include <utility>
 
+#include "libsegment/src/plane/outline.hpp"
 #include "libsegment/src/plane/plane.hpp"
-#include "libsegment/src/scene/outline.hpp"
 #include "libsegment/src/scene/parts.hpp"
 #include "libsegment/src/supports/planar.hpp"
 #include "libsegment/src/vessels/upper_end.hpp"

@@ -46,6 +46,8 @@ Keyword keyword_of(Setting setting, std::string_view value) {
       return named("infinity");
     case Setting::raw_type:
       return named("raw_dtype");
+    case Setting::most_supports:
+      return named("plane");
     case Setting::spacing:
       return named("supervoxels");
     default:

@@ -132,12 +132,12 @@ class Reports(ProgramTest):
         report, counts = self.expect_cuts("room.pcd", options, (0.0, 0.3, 1.0, 8.0, 60.0))
         self.assertEqual(counts, {2, 3})
         scene = report.meta["scene"]
-        self.assertEqual([s["role"] for s in scene["surfaces"]], ["support", "wall", "support"])
-        self.assertEqual((scene["removed"], scene["objects"]), (2, True))
+        self.assertEqual([s["role"] for s in scene["surfaces"]], ["support", "wall", "shelf", "wall"])
+        self.assertEqual((scene["removed"], scene["objects"]), (3, True))
         self.assertEqual([(s.get("on_surface"), s.get("on_segment")) for s in scene["segments"]],
                          [(1, None), (1, None), (None, 1)])
-        self.assertEqual(set(report["tree/leaf_surface"]), {0, 3})
-        self.assertEqual(set(report["points/surface"]), {0, 1, 2})
+        self.assertEqual(set(report["tree/leaf_surface"]), {0, 4})
+        self.assertEqual(set(report["points/surface"]), {0, 1, 2, 3})
 
     def test_an_answer_that_no_cut_of_the_tree_gives(self):
         self.write("hidden.pcd", hidden_scene())

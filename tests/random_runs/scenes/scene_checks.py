@@ -99,6 +99,7 @@ class Check:
         expected = {
             "max_range": a.max_range if a.max_range < math.inf else None,
             "crop": a.crop and {"min": ends(a.crop[::2]), "max": ends(a.crop[1::2])}, "plane": a.plane,
+            "most_supports": a.most_supports,
             "plane_distance": a.plane_distance or (0.006 if a.method == "paper" else 0.005),
             "plane_noise": a.plane_noise, "viewpoint": a.viewpoint and list(a.viewpoint), "voxel": a.voxel,
             "distance": a.distance, "steps": a.steps or "exact", "spacing": a.spacing, "check": a.check}

@@ -184,6 +184,7 @@ class Asked:
     max_range: float = 2.0
     crop: list = None
     plane: bool = True
+    most_supports: int = 8
     plane_distance: float = None
     plane_noise: float = 0.005
     viewpoint: tuple = None
@@ -226,6 +227,7 @@ class Asked:
             if getattr(self, name) is not None:
                 out += [[f"--{name}=" + ",".join(map(repr, getattr(self, name)))]]
         out += [] if self.plane else [["--plane", "off"]]
+        out += [["--plane", str(self.most_supports)]] if self.most_supports != 8 else []
         out += [["--steps", str(self.steps or "exact")]] if self.steps != 10 else []
         out += [] if self.check else [["--no-check"]]
         out += [["--allow-empty"]] if self.allow_empty else []
@@ -277,6 +279,8 @@ def random_options(rng, scene):
         asked.plane = False
     elif rng.random() < 0.5 or size > 10 or size < 0.01:
         asked.plane_distance = size * rng.choice([0.001, 0.01, 0.05])
+    if asked.plane and asked.method == "surface" and rng.random() < 0.2:
+        asked.most_supports = rng.choice([1, 2, 255])
     if asked.plane and asked.method != "paper" and rng.random() < 0.3:
         asked.plane_noise = rng.choice([0.0, 0.001, 0.02])
     if rng.random() < 0.2:
