@@ -111,6 +111,8 @@ MUTANTS = [
         ("roles: what is high is a leg", "role-leg", "segment.oriented_box.size[2] >=", "0 <="),
         ("standing: on any support that is reached", "standing-nearest", "away >= nearest[segment.label]", "false"),
         ("containers: two objects make one", "container-fewest", "3", "2"),
+        ("containers: walls in one part have no floor", "container-floor", "area_of(hull)", "1 + area_of(hull)"),
+        ("containers: the outside of a wall is an object", "container-outside", "<= thickest", "<= 0 * thickest"),
         ("containers: what stands on a box is in it", "container-top", "&& middle.z() < top", ""),
         ("rims: a third of the circle is enough", "rim-half", "kSectors / 2", "kSectors / 3"),
         ("openings: a third of a rim is one", "opening-sectors", "20", "12"),

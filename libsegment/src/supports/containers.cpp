@@ -20,6 +20,17 @@
 namespace ph::segment {
 namespace {
 
+/// The distance of a point from the border of a hull of at least three points.
+double distance_to_border(const Outline& hull, const Eigen::Vector2d& p) {
+  double least = kInfinity;
+  for (std::size_t i = 0; i < hull.size(); ++i) {
+    const Eigen::Vector2d side = hull[(i + 1) % hull.size()] - hull[i];
+    const double along = std::clamp((p - hull[i]).dot(side) / side.squaredNorm(), 0.0, 1.0);
+    least = std::min(least, (p - hull[i] - along * side).norm());
+  }
+  return least;
+}
+
 /// An object, upright: z is the height above the support.
 struct Thing {
   std::vector<Index> voxels;
@@ -89,13 +100,20 @@ class Containers {
     const auto last = std::ranges::upper_bound(by_x_, right.x(), {}, middle_of);
     for (const std::size_t k : std::span(first, last)) {
       const Eigen::Vector3d& middle = things_[k].middle;
-      if (std::ranges::find(found.parts, k) == found.parts.end() &&
-          // mutant: container-top
-          middle.z() > things_[floor].bottom && middle.z() < top &&
-          is_inside(hull, middle.head<2>()))
+      if (std::ranges::find(found.parts, k) != found.parts.end() ||
+          !is_inside(hull, middle.head<2>()))
+        continue;
+      // If all walls are one part, this part surrounds its floor.
+      if (is_floor_of(k, hull) && middle.z() < things_[floor].top)
+        found.parts.push_back(k);
+      else if (middle.z() > things_[floor].bottom && middle.z() < top)  // mutant: container-top
         found.objects.push_back(k);
     }
-    return found.objects.size() < fewest ? std::nullopt : std::optional(std::move(found));
+    if (found.objects.size() < fewest) return std::nullopt;
+    for (std::size_t k = 0; k < things_.size(); ++k)
+      if (std::ranges::find(found.parts, k) == found.parts.end() && is_outside_of_wall(k, hull))
+        found.parts.push_back(k);
+    return found;
   }
   bool touch(std::size_t a, std::size_t b) const {
     return std::ranges::find(touching_[a], b) != touching_[a].end();
@@ -129,6 +147,23 @@ class Containers {
     if (!plane || !is_steep(*plane, *scene_.plane)) return false;
     const std::vector<Index>& voxels = things_[floor].voxels;
     return count_behind(*plane, voxels) <= kMostBehind * static_cast<double>(voxels.size());
+  }
+  /// True if an object is flat, parallel to the support, and covers most of a container.
+  bool is_floor_of(std::size_t k, const Outline& hull) const {
+    const Thing& thing = things_[k];
+    return thing.plane && cosine_between(*thing.plane, *scene_.plane) > kLeastOfParallel &&
+           2 * area_of(thing.plan) > area_of(hull);  // mutant: container-floor
+  }
+  /// True if an object is flat and steep and follows the border of a container. The outside of a
+  /// wall does not touch its inside, because the rim between them is too thin to be seen.
+  bool is_outside_of_wall(std::size_t k, const Outline& hull) const {
+    constexpr double thickest = 0.02;  // metres
+    const Thing& thing = things_[k];
+    const auto is_at_border = [&](const Eigen::Vector2d& p) {
+      return distance_to_border(hull, p) <= thickest;  // mutant: container-outside
+    };
+    return thing.plane && is_steep(*thing.plane, *scene_.plane) &&
+           std::ranges::all_of(thing.plan, is_at_border);
   }
   /// The number of voxels that are behind a plane and beyond its margin.
   double count_behind(const Plane& plane, const std::vector<Index>& voxels) const {

@@ -18,7 +18,9 @@ struct Container {
 /// walls, or an object with an opening: the convex hull around floor and walls, seen along the
 /// normal of the support, contains the middles of at least three other objects, and these middles
 /// lie between the lower and the upper end. A wall of a floor is a flat, steep part that touches
-/// the floor, and nothing of the floor is behind it.
+/// the floor, and nothing of the floor is behind it. If the walls are one part, this part counts as
+/// the floor, and a flat part that covers most of the hull belongs to it. So do flat, steep parts
+/// along the border of the hull, which are outsides of walls.
 /// @param object_of for each voxel, one of the voxels of its object. The walls of a container get
 /// the number of its floor. @param min_size the fewest voxels of an object.
 /// @return the containers, largest first. Takes O(voxels log voxels) time, plus time for

@@ -359,7 +359,7 @@ TEST(Containers, ABinIsOneSegment) {
   const std::uint32_t container = room.label_of(s, 1);
   ASSERT_NE(container, 0U);
   EXPECT_EQ(s.cut.segments[container - 1].role, Role::container);
-  for (const int wall : {2, 4, 5}) EXPECT_EQ(room.label_of(s, wall), container) << wall;
+  for (const int wall : {2, 3, 4, 5}) EXPECT_EQ(room.label_of(s, wall), container) << wall;
   for (const int thing : {6, 7, 8}) {
     const std::uint32_t label = room.label_of(s, thing);
     ASSERT_NE(label, 0U);
@@ -369,6 +369,26 @@ TEST(Containers, ABinIsOneSegment) {
   }
   EXPECT_EQ(s.cut.segments[container - 1].on, (StandsOn{1, 0}));
   EXPECT_EQ(cut(s.tree, s.tree.first_cut).segments, s.cut.segments);
+}
+
+TEST(Containers, WallsInOnePartHaveAFloor) {
+  // The rim is so thick that it joins the walls.
+  const double z = 0.1;
+  const Room room({kTable,
+                   {{-0.26, -0.16, 0}, {0.26, 0.16, 0.01}},
+                   {{-0.28, -0.18, 0}, {-0.26, 0.18, z}},
+                   {{0.26, -0.18, 0}, {0.28, 0.18, z}},
+                   {{-0.26, -0.18, 0}, {0.26, -0.16, z}},
+                   {{-0.26, 0.16, 0}, {0.26, 0.18, z}},
+                   {{-0.18, -0.02, 0.01}, {-0.1, 0.06, 0.07}},
+                   {{-0.04, 0.02, 0.01}, {0.04, 0.1, 0.07}},
+                   {{0.1, -0.04, 0.01}, {0.18, 0.04, 0.07}}});
+  const Segmentation s = room.segmented();
+  const std::uint32_t container = room.label_of(s, 1);
+  ASSERT_NE(container, 0U);
+  EXPECT_EQ(s.cut.segments[container - 1].role, Role::container);
+  for (const int wall : {2, 3, 4, 5}) EXPECT_EQ(room.label_of(s, wall), container) << wall;
+  EXPECT_EQ(s.cut.segments.size(), 4U);
 }
 
 TEST(Containers, PartsOfOneVoxelAreNone) {
