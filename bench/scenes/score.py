@@ -7,15 +7,16 @@
 prints, for each kind, the mean F measure of objects with its standard error, the mean number of
 strays, and the mean CPU time of a run. A stray is a segment of which less than half lies on
 objects. A segment of ph-segment counts only if its role is `object`. The score of a frame is the
-mean over five voxel edges (4.7 to 5.3 mm).
+mean over five voxel edges: the edge that ph-segment chooses (5 mm or more), and 0.94 to 1.06 times
+this edge.
 
 A program for --peer is NAME = COMMAND, as for segmentation_scores.py. The printed difference is our
 F minus its F, averaged over the frames. The CPU time is that of the process (user + system), or, if
 the command names stages=FILE, the sum of the stages in that file. The CPU time of a peer is printed
 as a multiple of ours. CPU times are comparable only with --jobs 1.
 
-A command with {edge} runs once per voxel edge: {edge} stands for nothing (then ph-segment chooses
-an edge, 5 mm or more) or for `--voxel E`. {range} stands for the option that ph-segment needs for a
+A command with {edge} runs once per voxel edge: {edge} stands for nothing or for `--voxel E`. If the
+command writes no {outputs}/summary.json, the edge that it chooses counts as 5 mm. {range} stands for the option that ph-segment needs for a
 kind: --max-range 6 in rooms, which are larger than its default range of 2 m.
 
 Needs numpy.
@@ -41,33 +42,38 @@ import point_clouds
 import segmentation_metrics
 from segmentation_programs import OURS, Program, peer
 
-EDGES = ("", "--voxel 0.0047", "--voxel 0.00485", "--voxel 0.00515", "--voxel 0.0053")
+EDGES = (1, 0.94, 0.97, 1.03, 1.06)  # multiples of the edge that is chosen
 RANGE = {"room": "--max-range 6"}
 
 
-def variants(program, kind, edges):
-    """The programs to run on a frame of a kind, one per voxel edge if the command contains
-    {edge}."""
-    text = program.text.replace("{range}", RANGE.get(kind, ""))
-    edges = edges if "{edge}" in text else ("",)
-    return [Program(program.name, text.replace("{edge}", edge)) for edge in edges]
-
-
-def of_objects(labels, summary):
-    """The labels of a run of ph-segment, with 0 for segments that are not objects, such as
-    containers."""
-    segments = json.loads(summary.read_text())["segments"]
-    others = [s["label"] for s in segments if s["role"] != "object"]
-    return numpy.where(numpy.isin(labels, others), 0, labels)
-
-
-def labels_of_objects(program, path, outputs):
-    """The labels that a program gives to a frame. @param outputs a folder for its files."""
+def run(program, path, outputs):
+    """The labels that a program gives to a frame, with 0 for segments that are not objects, such as
+    containers, and the edge of its voxels in metres. @param outputs a folder for its files."""
     labels = program.labels(path, outputs)
-    if (summary := outputs / "summary.json").exists():
-        labels = of_objects(labels, summary)
-        summary.unlink()
-    return labels
+    file = outputs / "summary.json"
+    if not file.exists():
+        return labels, 0.005
+    summary = json.loads(file.read_text())
+    file.unlink()
+    others = [s["label"] for s in summary["segments"] if s["role"] != "object"]
+    return numpy.where(numpy.isin(labels, others), 0, labels), summary["voxel"]
+
+
+def runs(program, kind, edges, path, outputs):
+    """The labels and the CPU seconds of the runs of a program on a frame of a kind: one run per
+    voxel edge if the command contains {edge}."""
+    text = program.text.replace("{range}", RANGE.get(kind, ""))
+    for times in edges if "{edge}" in text else (1,):
+        option = "" if times == 1 else f"--voxel {times * voxel:.6g}"
+        variant = Program(program.name, text.replace("{edge}", option))
+        before = cpu_of_children()
+        labels, edge = run(variant, path, outputs)
+        cpu = cpu_of_children() - before
+        if stages := variant.stages(path, outputs):
+            cpu = sum(stages.values())
+        if times == 1:
+            voxel = edge
+        yield labels, cpu
 
 
 def strays(truth, labels):
@@ -95,13 +101,7 @@ def score(kind, seed, programs, edges, keep):
         point_clouds.write_scene(path, scene, colours)
         for program in programs:
             found = []
-            for variant in variants(program, kind, edges):
-                outputs = pathlib.Path(folder) / "labels"
-                before = cpu_of_children()
-                labels = labels_of_objects(variant, path, outputs)
-                cpu = cpu_of_children() - before
-                if stages := variant.stages(path, outputs):
-                    cpu = sum(stages.values())
+            for labels, cpu in runs(program, kind, edges, path, pathlib.Path(folder) / "labels"):
                 scores = segmentation_metrics.score(scene.truth, labels, False, False)
                 found.append((scores.f, strays(scene.truth, labels), cpu))
             results.append(numpy.mean(found, axis=0))

@@ -40,7 +40,7 @@ import perturbations
 import point_clouds
 import segmentation_metrics
 from perturbations import with_depth
-from score import RANGE, labels_of_objects
+from score import RANGE, run
 from segmentation_metrics import FIRST_OBJECT
 from segmentation_programs import OURS, Program, peer
 from segmentation_tables import share, table
@@ -217,7 +217,7 @@ def labels_of(program, frame, changed, folder):
         point_clouds.write_depth(path, changed.scene, PER_METRE)
     else:
         point_clouds.write_scene(path, changed.scene, viewpoint=changed.viewpoint)
-    return labels_of_objects(Program(program.name, text), path, path.parent / "labels")
+    return run(Program(program.name, text), path, path.parent / "labels")[0]
 
 
 def agreement(before, changed, after):
