@@ -91,10 +91,13 @@ std::optional<Candidate> best_hypothesis(const Sample& sample, double margins,
 std::optional<Candidate> best_parallel(const Sample& sample, double margins,
                                        const Eigen::Vector3d& normal,
                                        const Eigen::Vector3d& viewpoint) {
+  // This number is enough to find a plane that contains 3 % of the points with a probability of
+  // 98 %.
+  constexpr std::size_t most = 128;
   const std::size_t scored = std::min(sample.size(), kScored);
   std::optional<Candidate> best;
   double best_cost = kInfinity;
-  for (std::size_t i = 0; i < std::min<std::size_t>(scored, kHypotheses); ++i) {
+  for (std::size_t i = 0; i < std::min(scored, most); ++i) {
     const Candidate plane{normal, -normal.dot(sample[i])};
     if (!(normal.dot(viewpoint) + plane.offset > 0)) continue;
     const double cost = cost_of(plane, sample, scored, margins, best_cost);
