@@ -155,7 +155,8 @@ def labels_of(program, frame, parts, folder):
         subprocess.run(command, capture_output=True, check=True, timeout=TIMEOUT)
     except subprocess.SubprocessError:
         return None
-    return score.of_objects(numpy.load(outputs[0]).ravel().astype(numpy.int64), outputs[1])
+    summary = json.loads(outputs[1].read_text())
+    return score.of_objects(numpy.load(outputs[0]).ravel().astype(numpy.int64), summary)
 
 
 def scores_of(program, frame, known):

@@ -46,17 +46,23 @@ EDGES = (1, 0.94, 0.97, 1.03, 1.06)  # multiples of the edge that is chosen
 RANGE = {"room": "--max-range 6"}
 
 
+def of_objects(labels, summary):
+    """The labels of a run of ph-segment, with 0 for segments that are not objects, such as
+    containers. @param summary what --json wrote."""
+    others = [s["label"] for s in summary["segments"] if s["role"] != "object"]
+    return numpy.where(numpy.isin(labels, others), 0, labels)
+
+
 def run(program, path, outputs):
-    """The labels that a program gives to a frame, with 0 for segments that are not objects, such as
-    containers, and the edge of its voxels in metres. @param outputs a folder for its files."""
+    """The labels that a program gives to the objects of a frame, and the edge of its voxels in
+    metres. @param outputs a folder for its files."""
     labels = program.labels(path, outputs)
     file = outputs / "summary.json"
     if not file.exists():
         return labels, 0.005
     summary = json.loads(file.read_text())
     file.unlink()
-    others = [s["label"] for s in summary["segments"] if s["role"] != "object"]
-    return numpy.where(numpy.isin(labels, others), 0, labels), summary["voxel"]
+    return of_objects(labels, summary), summary["voxel"]
 
 
 def runs(program, kind, edges, path, outputs):

@@ -260,8 +260,8 @@ def run(scene, folder):
     point_clouds.write_scene(cloud, scene)
     command = [PROGRAM, cloud, "--no-check", "--labels", labels, "--json", summary]
     done = subprocess.run(command, check=True, capture_output=True, text=True)
-    of_objects = score.of_objects(numpy.load(labels).ravel(), summary)
-    return of_objects, json.loads(summary.read_text()), done.stderr
+    found = json.loads(summary.read_text())
+    return score.of_objects(numpy.load(labels).ravel(), found), found, done.stderr
 
 
 class LoneThings(unittest.TestCase):
