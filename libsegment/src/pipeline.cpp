@@ -59,14 +59,16 @@ Scene clear_scene(const CloudView& cloud, const SegmentOptions& options, StageCl
   // Section VI of the paper: "we find all points that correspond to a planar model and remove them"
   const bool is_paper = options.method == Method::paper;
   if (!is_paper) scene.margin.noise = options.noise_floor();
-  const Sample sample = draw_sample(cloud, in_range, scene.margin);
+  Sample sample;
   SupportSearch search;
-  if (in_range.size() < 3)
+  if (is_paper) {
+    search.support = find_plane(cloud, in_range, scene.margin, options.plane_guess);
+  } else if (in_range.size() < 3) {
     search.support.note = kTooFewPoints;
-  else if (is_paper)
-    search.support = find_plane(sample, cloud.viewpoint, options.plane_guess);
-  else
+  } else {
+    sample = draw_sample(cloud, in_range, scene.margin);
     search = find_support(cloud, sample, options.plane_guess);
+  }
   PlaneSearch& support = search.support;
   if (!is_paper && options.plane_noise > 0) {
     constexpr double deviations = 4;
@@ -83,9 +85,7 @@ Scene clear_scene(const CloudView& cloud, const SegmentOptions& options, StageCl
                      scene, result.tree);
     } else {
       scene.points = remove_plane(cloud, in_range, *scene.plane, scene.margin);
-      result.tree.surfaces.push_back({Role::support, *scene.plane});
-      for (const Index i : scene.points.on)
-        result.tree.removed_with[static_cast<std::size_t>(i)] = 1;
+      add_surface(Role::support, *scene.plane, scene.points.on, result.tree);
     }
     result.tree.removed = std::ssize(result.tree.surfaces);
     scene.in_range = std::move(in_range);

@@ -70,7 +70,8 @@ struct Sample;
 PlaneSearch find_plane(const Sample& sample, const Vec3& viewpoint,
                        const std::optional<Plane>& guess = {});
 /// Finds the plane with the most points among those that are parallel to another plane and face the
-/// viewpoint as it does. The refits may turn the plane a little.
+/// viewpoint as it does. The refits may turn the plane a little. Empty, without a note, if the
+/// viewpoint is in front of no such plane.
 PlaneSearch find_parallel(const Plane& like, const Sample& sample, const Vec3& viewpoint);
 
 /// The supporting plane, and other large planes that are not faces of objects.

@@ -16,7 +16,9 @@ struct Board {
   Extent extent;
 };
 
-/// A plane as a board: the extent is where its points are.
+/// A plane as a board: the extent is where its points are. @param points the points of the scene.
+/// @param range the distance of the plane's points from the viewpoint, in metres. The squares of
+/// the extent grow with it.
 Board board_of(const CloudView& cloud, const std::vector<Index>& points, const Plane& plane,
                const PlaneMargin& margin, double range);
 

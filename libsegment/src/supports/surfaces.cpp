@@ -10,12 +10,11 @@
 namespace ph::segment {
 namespace {
 
-/// Adds a surface to a tree, and marks its points.
-void add_surface(Role role, const Plane& plane, const std::vector<Index>& points, SceneTree& tree) {
-  tree.surfaces.push_back({role, plane});
+/// Marks the points that were removed with a surface. @param number the number of the surface, from
+/// 1.
+void mark(const std::vector<Index>& points, std::size_t number, SceneTree& tree) {
   for (const Index i : points)
-    tree.removed_with[static_cast<std::size_t>(i)] =
-        static_cast<std::uint8_t>(tree.surfaces.size());
+    tree.removed_with[static_cast<std::size_t>(i)] = static_cast<std::uint8_t>(number);
 }
 
 /// Removes the walls and the ceiling: planes behind which nothing is seen. They go before voxels
@@ -77,6 +76,11 @@ void set_roles(const std::vector<Removed>& supports, const Removed* lowest, cons
 
 }  // namespace
 
+void add_surface(Role role, const Plane& plane, const std::vector<Index>& points, SceneTree& tree) {
+  tree.surfaces.push_back({role, plane});
+  mark(points, tree.surfaces.size(), tree);
+}
+
 void clear_surfaces(const std::vector<Index>& in_range, const std::vector<Plane>& planes,
                     const Sample& sample, const PlaneSight& sight, Index most_supports,
                     Scene& scene, SceneTree& tree) {
@@ -98,13 +102,13 @@ void clear_surfaces(const std::vector<Index>& in_range, const std::vector<Plane>
     std::erase_if(boards, [&](const Board& b) { return b.plane.offset > plane.offset; });
   if (boards.empty()) {
     scene.points = remove_plane(cloud, points, plane, scene.margin);
-    for (const Index i : scene.points.on) tree.removed_with[static_cast<std::size_t>(i)] = 1;
+    mark(scene.points.on, 1, tree);
   } else {
     std::vector<Removed> supports;
     Board main = board_of(cloud, points, plane, scene.margin, scene.range);
     scene.points = has_lower ? remove_board(cloud, points, main)
                              : remove_plane(cloud, points, plane, scene.margin);
-    for (const Index i : scene.points.on) tree.removed_with[static_cast<std::size_t>(i)] = 1;
+    mark(scene.points.on, 1, tree);
     supports.push_back({std::move(main), scene.points.on, 0});
     for (Board& board : boards) {
       const bool is_lowest = has_lower && &board == boards.data();
