@@ -1,11 +1,30 @@
 // SPDX-License-Identifier: MIT
 #include "libsegment/src/supports/boards.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "libsegment/src/plane/outline.hpp"
+
 namespace ph::segment {
+namespace {
+
+/// The area of the convex hull, in square metres, of the points of a sample that are on a plane.
+double area_of_hull(const Plane& plane, const Sample& sample) {
+  const Eigen::Vector3d normal(plane.normal.data()), across = normal.unitOrthogonal(),
+                                                     along = normal.cross(across);
+  Outline on;
+  for (std::size_t i = 0; i < sample.size(); ++i) {
+    const Eigen::Vector3d p = sample[i];
+    if (std::abs(plane.signed_distance(p.x(), p.y(), p.z())) <= sample.limits[i])
+      on.emplace_back(across.dot(p), along.dot(p));
+  }
+  return area_of(hull_of(std::move(on)));
+}
+
+}  // namespace
 
 Board board_of(const CloudView& cloud, const std::vector<Index>& points, const Plane& plane,
                const PlaneMargin& margin, double range) {
@@ -47,18 +66,21 @@ std::vector<Board> find_boards(const CloudView& cloud, const std::vector<Index>&
     const Plane& plane = *search.plane;
     const double share =
         plane.share * static_cast<double>(rest.size()) / static_cast<double>(sample.size());
+    const double area = area_of_hull(plane, rest);
     rest = points_off(plane, kMarginsOfPlane, rest);
     const bool is_near = std::ranges::any_of(
         offsets, [&](double offset) { return std::abs(plane.offset - offset) <= least_step; });
     if (is_near || cosine_between(plane, support) < kLeastOfParallel) continue;
+    // Of a floor, little may be seen beside the support.
+    const bool is_floor =
+        plane.offset > support.offset && share >= least_share_of_floor && is_lowest(plane, cloud);
+    // All points of a small plane need not be looked at.
+    if (!is_floor && area < kLeastTable / 2) continue;
     const double height =
         plane.signed_distance(cloud.viewpoint[0], cloud.viewpoint[1], cloud.viewpoint[2]);
     Board board = board_of(cloud, points, plane,
                            {margin.distance, margin.noise * std::min(1.0, height / search.range)},
                            search.range);
-    // Of a floor, little may be seen beside the support.
-    const bool is_floor =
-        plane.offset > support.offset && share >= least_share_of_floor && is_lowest(plane, cloud);
     const bool is_large = board.extent.area_of_hull() >= kLeastTable;  // mutant: board-hull
     const bool is_box = board.extent.goes_on_beside();                 // mutant: board-beside
     if (!is_floor && (!is_large || is_box)) continue;

@@ -13,27 +13,38 @@
 namespace ph::segment {
 namespace {
 
-/// The sum of some vectors and the sums of the products of their coordinates.
+/// A sum of vectors times their transposes. Such a matrix is symmetric.
+struct Products {
+  double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
+
+  void add(const Eigen::Vector3d& v, double weight = 1) {
+    const Eigen::Vector3d w = weight * v;
+    xx += w.x() * v.x();
+    xy += w.x() * v.y();
+    xz += w.x() * v.z();
+    yy += w.y() * v.y();
+    yz += w.y() * v.z();
+    zz += w.z() * v.z();
+  }
+  Eigen::Matrix3d matrix() const {
+    Eigen::Matrix3d m;
+    m << xx, xy, xz, xy, yy, yz, xz, yz, zz;
+    return m;
+  }
+};
+
+/// The sums of some vectors and of their products.
 struct Moments {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
+  Products products;
   int count = 1;  // the voxel itself counts, and its vector is zero
 
-  void add(double x, double y, double z) {
-    sum += Eigen::Vector3d(x, y, z);
-    xx += x * x;
-    xy += x * y;
-    xz += x * z;
-    yy += y * y;
-    yz += y * z;
-    zz += z * z;
+  void add(const Eigen::Vector3d& v) {
+    sum += v;
+    products.add(v);
     ++count;
   }
-  Eigen::Matrix3d scatter() const {
-    Eigen::Matrix3d squares;
-    squares << xx, xy, xz, xy, yy, yz, xz, yz, zz;
-    return squares - sum * sum.transpose() / count;
-  }
+  Eigen::Matrix3d scatter() const { return products.matrix() - sum * sum.transpose() / count; }
 };
 
 /// Scatter matrices of several voxels are processed side by side, so that the compiler can
@@ -100,7 +111,7 @@ Eigen::Vector3d row(const Points& points, std::uint32_t i) {
 class MeanRise {
  public:
   void add(double rise, const Eigen::Vector3d& direction) {
-    sum_ += rise * direction * direction.transpose();
+    sum_.add(direction, rise);
     ++count_;
   }
   /// The largest eigenvalue on the tangent plane, or 0 if it is negative. At the corner of a box on
@@ -109,13 +120,14 @@ class MeanRise {
   double largest(const Eigen::Vector3d& normal) const {
     if (count_ == 0) return 0;
     const Eigen::Vector3d u = normal.unitOrthogonal(), v = normal.cross(u);
-    const double uu = u.dot(sum_ * u), uv = u.dot(sum_ * v), vv = v.dot(sum_ * v);
+    const Eigen::Matrix3d sum = sum_.matrix();
+    const double uu = u.dot(sum * u), uv = u.dot(sum * v), vv = v.dot(sum * v);
     // mutant: concavity-mean
     return std::max(0.0, ((uu + vv) / 2 + std::hypot((uu - vv) / 2, uv)) / count_);
   }
 
  private:
-  Eigen::Matrix3d sum_ = Eigen::Matrix3d::Zero();
+  Products sum_;
   int count_ = 0;
 };
 
@@ -126,8 +138,8 @@ Points surface_normals(const Points& centroids, std::span<const VoxelPair> pairs
   std::vector<Moments> moments(static_cast<std::size_t>(centroids.rows()));
   for_each_within(pairs, radius, [&](const VoxelPair& p) {
     const Eigen::Vector3d d = row(centroids, p.v) - row(centroids, p.u);
-    moments[p.u].add(d.x(), d.y(), d.z());
-    moments[p.v].add(-d.x(), -d.y(), -d.z());
+    moments[p.u].add(d);
+    moments[p.v].add(-d);
   });
   Points normals(centroids.rows(), 3);
   as_matrix(normals).setConstant(std::numeric_limits<double>::quiet_NaN());

@@ -3,6 +3,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <ostream>
@@ -291,17 +292,14 @@ void write_npy(std::ostream& out, std::span<const std::uint32_t> labels, Index w
                        static_cast<char>(header.size() >> 8)};
   out.write(lead, sizeof(lead));
   out.write(header.data(), static_cast<std::streamsize>(header.size()));
-  std::string block;
   constexpr std::size_t kBlock = 1 << 14;
+  std::array<char, 4 * kBlock> bytes;
   for (std::size_t begin = 0; begin < labels.size(); begin += kBlock) {
-    block.clear();
-    for (const std::uint32_t label :
-         labels.subspan(begin, std::min(kBlock, labels.size() - begin))) {
-      for (int shift = 0; shift < 32; shift += 8) {
-        block += static_cast<char>((label >> shift) & 0xFF);
-      }
-    }
-    out.write(block.data(), static_cast<std::streamsize>(block.size()));
+    const auto block = labels.subspan(begin, std::min(kBlock, labels.size() - begin));
+    for (std::size_t i = 0; i < block.size(); ++i)
+      for (std::size_t k = 0; k < 4; ++k)
+        bytes[4 * i + k] = static_cast<char>((block[i] >> (8 * k)) & 0xFF);
+    out.write(bytes.data(), static_cast<std::streamsize>(4 * block.size()));
   }
   if (!out) throw Error(ErrorKind::io, "cannot write labels");
 }
