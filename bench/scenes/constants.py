@@ -16,7 +16,9 @@ unchanged program; a later run uses them again. SCENES are PCD files with ground
     none: INPUTS        the constant is not measured
 
 ph-segment is then built and run on all frames, with and without --parts. A frame counts if its F of
-objects or of parts differs by more than .01 for at least one change. Needs numpy, git, cmake and
+objects or of parts differs by more than .01 for at least one change. If fewer than three visible or
+generated frames count, the constant is measured on rare frames as well: on things without a table
+(lone_things.py), and on frames of which one point in sixteen is left. Needs numpy, git, cmake and
 ninja.
 """
 
@@ -40,6 +42,7 @@ sys.path.append(str(ROOT / "bench/segmentation"))
 import arrangements
 import declarations
 import frames
+import lone_things
 import point_clouds
 import score
 import segmentation_metrics
@@ -48,12 +51,17 @@ TABLE = "bench/results/segmentation-constants.csv"
 LIBRARY = "libsegment"
 SCRIPT = "bench/scenes/constants.py"
 LEAST = 0.01  # a smaller difference of F does not count
-MAKERS = "arrangements.py", "cameras.py", "frames.py", "placing.py", "shapes.py", "things.py"
+MAKERS = [
+    *("arrangements.py", "cameras.py", "frames.py", "lone_things.py"),
+    *("placing.py", "shapes.py", "things.py"),
+]
+GROUPS = "visible", "generated", "rare"
+FEW = 3  # frames: a constant that fewer visible and generated frames feel is measured on rare ones
 TIMEOUT = 60  # seconds of one run, which takes less than one
 
 
 class Frame(NamedTuple):
-    group: str  # the column of the table: visible or generated
+    group: str  # the column of the table: visible, generated or rare
     path: pathlib.Path
     truth: pathlib.Path
     options: tuple
@@ -81,19 +89,52 @@ def visible(scenes, without, folder):
     ]
 
 
-def generated(kinds, seeds, folder):
-    """The frames of score.py. They are made again if a script that makes them has changed."""
-    folder = folder / f"generated-{digest(*(ROOT / 'bench/scenes' / name for name in MAKERS))}"
+def made(group, name, folder, make, options=()):
+    """A frame that is made again if a script that makes frames has changed. @param make a function
+    without arguments that returns the arguments of point_clouds.write_scene after the path."""
+    folder = folder / f"{group}-{digest(*(ROOT / 'bench/scenes' / name for name in MAKERS))}"
     folder.mkdir(parents=True, exist_ok=True)
-    found = []
-    for kind in kinds:
-        for seed in seeds:
-            path = folder / f"{kind}-{seed}.pcd"
-            if not path.exists():
-                point_clouds.write_scene(path, *frames.frame(kind, seed))
-            options = score.RANGE.get(kind, "").split()
-            found.append(with_truth("generated", path, folder, options))
-    return found
+    path = folder / f"{name}.pcd"
+    if not path.exists():
+        point_clouds.write_scene(path, *make())
+    return with_truth(group, path, folder, options)
+
+
+def generated(kinds, seeds, folder):
+    """The frames of score.py."""
+    return [
+        made(
+            "generated",
+            f"{kind}-{seed}",
+            folder,
+            lambda kind=kind, seed=seed: frames.frame(kind, seed),
+            score.RANGE.get(kind, "").split(),
+        )
+        for kind in kinds
+        for seed in seeds
+    ]
+
+
+def thinned(kind, seed):
+    """A frame of which one point in sixteen is left."""
+    scene, _ = frames.frame(kind, seed)
+    scene.points[numpy.random.default_rng(seed).random(len(scene.points)) > 1 / 16] = numpy.nan
+    return (scene,)
+
+
+def rare(seeds, folder):
+    """A frame of each kind of lone_things.py, and sparse frames."""
+    found = [
+        made("rare", name.replace(", ", "-").replace(" ", "-"), folder,
+             lambda case=case: (next(lone_things.frames_of(case)),))
+        for name, case in lone_things.CASES.items()
+    ]  # fmt: skip
+    return found + [
+        made("rare", f"sparse-{kind}-{seed}", folder,
+             lambda kind=kind, seed=seed: thinned(kind, seed))
+        for kind in ("table", "stack", "clutter")
+        for seed in seeds
+    ]  # fmt: skip
 
 
 class Failure(Exception):
@@ -207,17 +248,12 @@ def values(constant, change):
     raise SystemExit(f"{constant.name}: {change!r}: found no such change")
 
 
-def measure(row, copy, all_frames, baseline, known):
-    """Fills the columns of a row."""
+def changed_frames(constant, row, copy, of_group, baseline, known):
+    """The frames of a group that at least one change of a constant changes, and the changes with
+    which the sources do not compile."""
     file = row["file"]
-    constants = declarations.constants_in((ROOT / LIBRARY / file).read_text())
-    constant = next((c for c in constants if c.name == row["name"]), None)
-    if constant is None:
-        print(f"{file}: {row['name']}: found no such constant", file=sys.stderr)
-        return
     changed, failed = set(), []
-    changes = values(constant, row["change"])
-    for text, value in changes.items():
+    for text, value in values(constant, row["change"]).items():
         try:
             copy.change(constant, file, value)
             copy.build()
@@ -227,16 +263,38 @@ def measure(row, copy, all_frames, baseline, known):
             continue
         finally:
             copy.restore(file)
-        for frame in all_frames:
+        for frame in of_group:
             before, now = baseline[str(frame.path)], scores_of(copy.program, frame, known)
             if any(abs(a - b) > LEAST for a, b in zip(before, now)):
                 changed.add(frame)
-    note = f"{' and '.join(failed)}: does not compile" if failed else ""
-    for group in ("visible", "generated"):
-        of_group = [frame for frame in all_frames if frame.group == group]
-        count = sum(frame in changed for frame in of_group)
-        text = f"{count} / {len(of_group)}" if len(failed) < len(changes) else ""
-        row[group] = "; ".join(filter(None, (text, note)))
+    return changed, failed
+
+
+def is_felt(row):
+    """True if at least FEW visible and generated frames feel a constant."""
+    counts = [re.match(r"\d+", row[group]) for group in ("visible", "generated")]
+    return sum(int(count[0]) for count in counts if count) >= FEW
+
+
+def measure(row, copy, all_frames, baseline, known):
+    """Fills the columns of a row that are empty."""
+    constants = declarations.constants_in((ROOT / LIBRARY / row["file"]).read_text())
+    constant = next((c for c in constants if c.name == row["name"]), None)
+    if constant is None:
+        print(f"{row['file']}: {row['name']}: found no such constant", file=sys.stderr)
+        return
+    for groups in (("visible", "generated"), ("rare",)):
+        if row[groups[0]] or (groups == ("rare",) and is_felt(row)):
+            continue
+        of_groups = [frame for frame in all_frames if frame.group in groups]
+        changed, failed = changed_frames(constant, row, copy, of_groups, baseline, known)
+        note = f"{' and '.join(failed)}: does not compile" if failed else ""
+        is_measured = len(failed) < len(values(constant, row["change"]))
+        for group in groups:
+            of_group = [frame for frame in of_groups if frame.group == group]
+            count = sum(frame in changed for frame in of_group)
+            text = f"{count} / {len(of_group)}" if is_measured else ""
+            row[group] = "; ".join(filter(None, (text, note)))
     row["script"], row["date"] = SCRIPT, datetime.date.today().isoformat()
 
 
@@ -274,7 +332,7 @@ def is_wanted(row, arguments):
         return False
     if arguments.only:
         return f"{row['file']}:{row['name']}" in arguments.only
-    return arguments.all or not row["visible"]
+    return arguments.all or not row["visible"] or not (row["rare"] or is_felt(row))
 
 
 def main():
@@ -282,15 +340,18 @@ def main():
     folder = arguments.folder.resolve()
     all_frames = visible(arguments.scenes, arguments.without, folder)
     all_frames += generated(arguments.kinds, arguments.seeds, folder)
+    all_frames += rare(arguments.seeds, folder)
     rows, known = read(), {}
     wanted = [row for row in rows if is_wanted(row, arguments)]
     copy = Copy(folder, arguments.jobs)
     copy.build()
     baseline = baseline_of(copy, all_frames, folder, known)
     for row in wanted:
+        if arguments.all or arguments.only:
+            row.update(dict.fromkeys(GROUPS, ""))
         measure(row, copy, all_frames, baseline, known)
         write(rows)
-        print(row["file"], row["name"], row["visible"], row["generated"], sep=", ", flush=True)
+        print(*(row[c] for c in ("file", "name", *GROUPS)), sep=", ", flush=True)
     return 0
 
 

@@ -16,8 +16,9 @@ the command names stages=FILE, the sum of the stages in that file. The CPU time 
 as a multiple of ours. CPU times are comparable only with --jobs 1.
 
 A command with {edge} runs once per voxel edge: {edge} stands for nothing or for `--voxel E`. If the
-command writes no {outputs}/summary.json, the edge that it chooses counts as 5 mm. {range} stands for the option that ph-segment needs for a
-kind: --max-range 6 in rooms, which are larger than its default range of 2 m.
+command writes no {outputs}/summary.json, the edge that it chooses counts as 5 mm. {range} stands
+for the option that ph-segment needs for a kind: --max-range 6 in rooms, which are larger than its
+default range of 2 m.
 
 Needs numpy.
 """

@@ -68,31 +68,44 @@ class Changes(unittest.TestCase):
 
 
 class Counts(unittest.TestCase):
-    def measured(self, builds, scores):
-        """The cells of a row of a real constant. @param builds for each change, whether it compiles.
-        @param scores for each change that compiles, F of objects and of parts of each frame."""
-        row = {"file": "src/methods.cpp", "name": "kAdjacent", "change": "x 1.5 and / 1.5"}
+    ROW = {"file": "src/methods.cpp", "name": "kAdjacent", "change": "x 1.5 and / 1.5",
+           "visible": "", "generated": "", "rare": ""}
+
+    def measured(self, builds, scores, row=ROW, changes=4):
+        """The cells of a row of a real constant. @param builds for each change, first on visible and
+        generated frames and then on rare ones, whether it compiles. @param scores for each change
+        that compiles, F of objects and of parts of each frame."""
+        row = dict(row)
         copy = mock.Mock()
         copy.build.side_effect = [None if good else constants.Failure("no") for good in builds]
-        frames = [constants.Frame(*of) for of in (("visible", "a", "", ()), ("visible", "b", "", ()),
-                                                  ("generated", "c", "", ()))]
-        baseline = {"a": [0.9, 0.8], "b": [0.9, 0.8], "c": [0.9, 0.8]}
+        frames = [constants.Frame(group, path, "", ()) for group, path in
+                  (("visible", "a"), ("visible", "b"), ("generated", "c"), ("rare", "d"))]
+        baseline = {name: [0.9, 0.8] for name in "abcd"}
         with mock.patch.object(constants, "scores_of", side_effect=scores), mock.patch("sys.stderr"):
             constants.measure(row, copy, frames, baseline, {})
-        self.assertEqual(copy.restore.call_count, 2)
-        return row["visible"], row["generated"]
+        self.assertEqual(copy.restore.call_count, changes)
+        return row["visible"], row["generated"], row["rare"]
 
     def test_a_frame_counts_once_if_objects_or_parts_differ(self):
-        same = [0.9, 0.8]
-        self.assertEqual(self.measured([True, True], [[0.88, 0.8], [0.905, 0.8], same, [0.9, 0.9], same, same]),
-                         ("1 / 2", "0 / 1"))
-        self.assertEqual(self.measured([True, True], [same, [0.9, 0.82], same, [0.95, 0.8], same, [0, 0]]),
-                         ("2 / 2", "1 / 1"))
+        same, good = [0.9, 0.8], [True] * 4
+        self.assertEqual(
+            self.measured(good, [[0.88, 0.8], [0.905, 0.8], same, [0.9, 0.9], same, same, same, same]),
+            ("1 / 2", "0 / 1", "0 / 1"))
+        self.assertEqual(
+            self.measured(good, [same, [0.9, 0.82], same, same, same, [0, 0], same, [0.8, 0.8]]),
+            ("1 / 2", "1 / 1", "1 / 1"))
+
+    def test_rare_frames_are_for_constants_that_few_others_feel(self):
+        self.assertEqual(self.measured([True] * 2, [[0, 0]] * 6, changes=2), ("2 / 2", "1 / 1", ""))
+        known = {**self.ROW, "visible": "1 / 2", "generated": "0 / 1"}
+        self.assertEqual(self.measured([True] * 2, [[0, 0]] * 2, known, changes=2),
+                         ("1 / 2", "0 / 1", "1 / 1"))
 
     def test_a_change_that_does_not_compile_is_told(self):
-        self.assertEqual(self.measured([True, False], [[0.5, 0.5]] * 3),
-                         ("2 / 2; / 1.5: does not compile", "1 / 1; / 1.5: does not compile"))
-        self.assertEqual(self.measured([False, False], []), ("x 1.5 and / 1.5: does not compile",) * 2)
+        fault = "; / 1.5: does not compile"
+        self.assertEqual(self.measured([True, False] * 2, [[0.5, 0.5], [0.9, 0.8], [0.9, 0.8], [0, 0]]),
+                         ("1 / 2" + fault, "0 / 1" + fault, "1 / 1" + fault))
+        self.assertEqual(self.measured([False] * 4, []), ("x 1.5 and / 1.5: does not compile",) * 3)
 
 
 class Runs(unittest.TestCase):
