@@ -67,7 +67,7 @@ Scene clear_scene(const CloudView& cloud, const SegmentOptions& options, StageCl
     search.support.note = kTooFewPoints;
   } else {
     sample = draw_sample(cloud, in_range, scene.margin);
-    search = find_support(cloud, sample, options.plane_guess);
+    search = find_support(cloud, in_range, scene.margin, sample, options.plane_guess);
   }
   PlaneSearch& support = search.support;
   if (!is_paper && options.plane_noise > 0) {
@@ -85,7 +85,7 @@ Scene clear_scene(const CloudView& cloud, const SegmentOptions& options, StageCl
                      scene, result.tree);
     } else {
       scene.points = remove_plane(cloud, in_range, *scene.plane, scene.margin);
-      add_surface(Role::support, *scene.plane, scene.points.on, result.tree);
+      add_surface(Role::support, *scene.plane, cloud, scene.points.on, result.tree);
     }
     result.tree.removed = std::ssize(result.tree.surfaces);
     scene.in_range = std::move(in_range);
@@ -180,9 +180,9 @@ Segmentation segment(const CloudView& input, const SegmentOptions& options,
                               result.tree.first_cut.min_size, filtration.points, filtration.grid);
   keep_points(cloud, filtration, result.tree);
   if (options.method == Method::surface && scene.plane)
-    std::ranges::copy(
-        find_walls(cloud, *scene.plane, result.tree, components.of, result.tree.first_cut.min_size),
-        std::back_inserter(result.tree.surfaces));
+    std::ranges::copy(find_bounds(cloud, *scene.plane, result.tree, components.of,
+                                  result.tree.first_cut.min_size),
+                      std::back_inserter(result.tree.surfaces));
   result.cut =
       cut_into(result.tree, components, filtration.surface, result.tree.first_cut, context);
   Index in_segments = 0;

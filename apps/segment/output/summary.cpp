@@ -58,12 +58,6 @@ std::string plane_of(const Segmentation& s) {
                  {"share", number(s.tree.plane->share)}});
 }
 
-std::string oriented_box_of(const OrientedBox& box) {
-  return object({{"centre", numbers(box.centre)},
-                 {"axes", array(box.axes, numbers<Vec3>)},
-                 {"size", numbers(box.size)}});
-}
-
 std::string neighbours_of(const Segment& segment, const RunInfo& info) {
   return array(segment.neighbours, [&](const Neighbour& n) {
     return object({{"label", integer(info.number_of(n.label))}, {"meets_at", number(n.meets_at)}});
@@ -97,7 +91,7 @@ std::string segments_of(const Segmentation& s, const RunInfo& info) {
                    {"meets_at", number(g.meets_at)},
                    {"centroid", numbers(g.centroid)},
                    {"box", box_of(g.box)},
-                   {"oriented_box", oriented_box_of(g.oriented_box)},
+                   {"oriented_box", json_of(g.oriented_box)},
                    {"role", json::string(role_name(g.role))},
                    {"on", on_of(g, info)},
                    {"neighbours", neighbours_of(g, info)},

@@ -74,10 +74,21 @@ constexpr bool is_support(Role role) {
   return role == Role::support || role == Role::floor || role == Role::shelf;
 }
 
+/// A box with its own axes.
+struct OrientedBox {
+  Vec3 centre{};
+  std::array<Vec3, 3> axes{};  ///< unit vectors, right-handed
+  Vec3 size{};                 ///< full lengths along the axes, metres
+  friend bool operator==(const OrientedBox&, const OrientedBox&) = default;
+};
+
 /// A plane that bounds a scene. It is not a segment.
 struct SceneSurface {
   Role role = Role::support;  ///< neither object nor container
   Plane plane;
+  /// The box of the points that were removed with it; axes[2] is the normal of the plane. The size
+  /// is zero if no points were removed with it.
+  OrientedBox oriented_box{};
   friend bool operator==(const SceneSurface&, const SceneSurface&) = default;
 };
 
@@ -88,14 +99,6 @@ inline constexpr std::size_t kMostSurfaces = 255;
 struct NoiseAt {
   double range = 0;      ///< distance from the viewpoint, metres
   double concavity = 0;  ///< the concavity of 84 % of the free supporting plane is below it
-};
-
-/// A box with its own axes.
-struct OrientedBox {
-  Vec3 centre{};
-  std::array<Vec3, 3> axes{};  ///< unit vectors, right-handed
-  Vec3 size{};                 ///< full lengths along the axes, metres
-  friend bool operator==(const OrientedBox&, const OrientedBox&) = default;
 };
 
 /// A segment that touches another segment.
@@ -131,7 +134,7 @@ struct Segment {
   /// normal of the plane, and axes[0] is the longer side of the smallest rectangle around the
   /// projections of the points onto the plane. Without a plane, the axes are the principal axes,
   /// longest first.
-  OrientedBox oriented_box;
+  OrientedBox oriented_box{};
   Role role = Role::object;           ///< object, container, or support: a leg of a table
   StandsOn on;                        ///< its support, as far as this is visible
   std::vector<Neighbour> neighbours;  ///< all segments that it touches, first contact first
@@ -162,7 +165,7 @@ struct SceneTree {
   Vec3 viewpoint{};            ///< position of the sensor
   std::optional<Plane> plane;  ///< the removed plane
   /// The planes that bound the scene: first the removed planes, beginning with `plane`, then the
-  /// planes found among the components (boards, walls). At most kMostSurfaces.
+  /// planes found among the components (walls, ceilings). At most kMostSurfaces.
   std::vector<SceneSurface> surfaces;
   /// For method surface: the noise at several ranges, nearest range first. Empty if too little of
   /// the supporting plane was visible.

@@ -208,6 +208,16 @@ Box box_around(const Coordinates& points) {
   return box;
 }
 
+OrientedBox box_on_plane(const CloudView& cloud, const std::vector<Index>& points, const Vec3& up) {
+  if (points.empty()) return {};
+  std::array<RawVector<float>, 3> all;
+  for (RawVector<float>& of_axis : all) of_axis.reserve(points.size());
+  for (const Index i : points)
+    for (std::size_t k = 0; k < 3; ++k)
+      all[k].push_back(cloud.point(static_cast<std::size_t>(i))[k]);
+  return box_on_plane(Coordinates{all[0], all[1], all[2]}, up);
+}
+
 OrientedBox box_along(const Coordinates& points, const std::array<Vec3, 3>& axes) {
   OrientedBox box{{}, axes, {}};
   Vector3d centre = Vector3d::Zero();

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <span>
+#include <vector>
 
 #include "ph/scene_tree.hpp"
+#include "ph/segment.hpp"
 
 namespace ph::segment {
 
@@ -21,6 +23,9 @@ Box box_around(const Coordinates& points);
 /// O(n) time plus O(h log h) for the h points near the hull.
 /// @param up the unit normal of the plane.
 OrientedBox box_on_plane(const Coordinates& points, const Vec3& up);
+
+/// The same for some points of a cloud. The size of the box of no points is zero.
+OrientedBox box_on_plane(const CloudView& cloud, const std::vector<Index>& points, const Vec3& up);
 
 /// The box of points along given axes. @param axes three orthogonal unit vectors.
 OrientedBox box_along(const Coordinates& points, const std::array<Vec3, 3>& axes);

@@ -262,6 +262,14 @@ bool bounds_the_view(const Plane& plane, const CloudView& cloud) {
   return share_behind(cloud, plane, kOfWalls) <= kMostBehind;
 }
 
+std::optional<Role> role_of_bound(const Plane& plane, const Plane& support,
+                                  const CloudView& cloud) {
+  const bool faces_down = cosine_between(plane, support) < -kLeastOfParallel;
+  if ((!faces_down && !is_steep(plane, support)) || !bounds_the_view(plane, cloud))
+    return std::nullopt;
+  return faces_down ? Role::ceiling : Role::wall;
+}
+
 bool is_steep(const Plane& plane, const Plane& support) {
   constexpr double largest_cosine = 0.5;
   return std::abs(cosine_between(plane, support)) < largest_cosine;

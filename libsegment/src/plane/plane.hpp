@@ -84,8 +84,10 @@ struct SupportSearch {
 /// plane may be a wall; of this plane and the next largest ones, the support is then the plane that
 /// most things touch from above. There is no support if the surface goes on behind the largest
 /// plane, which is then a face of an object. There is also none if this plane is smaller than a
-/// table and nothing stands on it. @param guess as for find_plane.
-SupportSearch find_support(const CloudView& cloud, const Sample& sample,
+/// table and nothing stands on it. @param points indices into the cloud, none of them a hole.
+/// @param sample a sample of these points. @param guess as for find_plane.
+SupportSearch find_support(const CloudView& cloud, const std::vector<Index>& points,
+                           const PlaneMargin& margin, const Sample& sample,
                            const std::optional<Plane>& guess = {});
 
 /// The points in range, divided by a plane.
@@ -123,6 +125,10 @@ bool bounds_the_view(const Plane& plane, const CloudView& cloud);
 
 /// The least cosine of the angle between planes that count as parallel.
 inline constexpr double kLeastOfParallel = 0.98;
+
+/// The role of a plane that bounds the view: a wall if it is steep, and a ceiling if it faces the
+/// support. Empty for any other plane.
+std::optional<Role> role_of_bound(const Plane& plane, const Plane& support, const CloudView& cloud);
 
 /// True if a plane is at more than 60 degrees to the support, as a wall is.
 bool is_steep(const Plane& plane, const Plane& support);

@@ -20,19 +20,18 @@ Extent extent_of(const PlaneSearch& search, const Sample& sample, double side = 
   return extent;
 }
 
-/// The largest planes of a sample, without faces of objects. @param first the largest one. @param
-/// things receives the points that are on none of them.
-std::vector<PlaneSearch> planes_of(const PlaneSearch& first, const Sample& sample,
-                                   const Vec3& viewpoint, Sample& things) {
+/// Adds the largest planes of some points, without faces of objects. @param rest a sample of points
+/// that are on none of the planes so far. @param share the share of these points among all points.
+void add_planes(Sample rest, double share, const Vec3& viewpoint,
+                std::vector<PlaneSearch>& planes) {
   constexpr int most_times = 8;
   constexpr double least_share = 0.01;
-  std::vector<PlaneSearch> planes{first};
-  Sample rest = points_off(*first.plane, kMarginsOfPlane, sample);
-  things = rest;
+  const auto all = static_cast<double>(rest.size()) / share;
+  Sample things = rest;
   for (int times = 1; times < most_times; ++times) {
     PlaneSearch next = find_plane(rest, viewpoint);
     if (!next.plane) break;
-    next.plane->share *= static_cast<double>(rest.size()) / static_cast<double>(sample.size());
+    next.plane->share *= static_cast<double>(rest.size()) / all;
     if (next.plane->share < least_share) break;
     rest = points_off(*next.plane, kMarginsOfPlane, rest);
     // A wall beside a table is not the table's other side.
@@ -41,42 +40,66 @@ std::vector<PlaneSearch> planes_of(const PlaneSearch& first, const Sample& sampl
     things = points_off(*next.plane, kMarginsOfPlane, things);
     planes.push_back(std::move(next));
   }
-  return planes;
 }
 
-/// Adds, for each plane, the largest plane that is parallel to it, if it is as large as a table. A
-/// table far away holds few points of the sample, but its direction is known from the floor.
-void add_parallel(const Sample& sample, const Vec3& viewpoint, std::vector<PlaneSearch>& planes,
-                  Sample& things) {
-  for (std::size_t i = 0, count = planes.size(); i < count; ++i) {
-    PlaneSearch search = find_parallel(*planes[i].plane, things, viewpoint);
-    if (!search.plane) continue;
-    const Extent extent = extent_of(search, sample);
-    if (extent.goes_on_behind() || extent.area_of_hull() < kLeastTable) continue;
-    search.plane->share *= static_cast<double>(things.size()) / static_cast<double>(sample.size());
-    things = points_off(*search.plane, kMarginsOfPlane, things);
-    planes.push_back(std::move(search));
+/// The points that are on none of some planes.
+std::vector<Index> points_off(const std::vector<PlaneSearch>& planes, const CloudView& cloud,
+                              const std::vector<Index>& points, const PlaneMargin& margin) {
+  std::vector<SlantedMargin> margins;
+  for (const PlaneSearch& search : planes)
+    margins.emplace_back(margin, *search.plane, cloud.viewpoint);
+  std::vector<Index> off;
+  for (const Index i : points) {
+    const float* p = cloud.point(static_cast<std::size_t>(i));
+    bool is_on = false;
+    for (std::size_t k = 0; k < planes.size() && !is_on; ++k)
+      is_on = std::abs(planes[k].plane->signed_distance(p[0], p[1], p[2])) <=
+              kMarginsOfPlane * margins[k]({p[0], p[1], p[2]});
+    if (!is_on) off.push_back(i);
   }
+  return off;
 }
 
 /// The number of points of things that are just in front of a plane.
-std::size_t count_contacts(const Plane& plane, const Sample& things) {
+std::size_t count_contacts(const Plane& plane, const SlantedMargin& margin, const Sample& things) {
   constexpr double least_reach = 0.03;  // metres
   std::size_t count = 0;
   for (std::size_t i = 0; i < things.size(); ++i) {
     const double height = plane.signed_distance(things.x[i], things.y[i], things.z[i]);
-    const double least = kMarginsOfPlane * things.limits[i];
+    const double least = kMarginsOfPlane * margin(things[i]);
     count += height > least && height < least + std::max(least, least_reach) ? 1U : 0U;
   }
   return count;
 }
 
+/// For each plane, the number of points of things that are just in front of it, or of the largest
+/// plane that is parallel to it. A table far away may hold too few points to be found by itself,
+/// but its direction is known from the floor. @param things a sample of the points off all planes.
+std::vector<std::size_t> contacts_of(const std::vector<PlaneSearch>& planes,
+                                     const PlaneMargin& margin, const Vec3& viewpoint,
+                                     Sample things) {
+  std::vector<std::vector<Plane>> touched;
+  for (const PlaneSearch& search : planes) {
+    touched.push_back({*search.plane});
+    things.set_limits(SlantedMargin(margin, *search.plane, viewpoint));
+    const PlaneSearch parallel = find_parallel(*search.plane, things, viewpoint);
+    if (!parallel.plane) continue;
+    const Extent extent = extent_of(parallel, things);
+    if (extent.goes_on_behind() || extent.area_of_hull() < kLeastTable) continue;
+    touched.back().push_back(*parallel.plane);
+    things = points_off(*parallel.plane, kMarginsOfPlane, things);
+  }
+  std::vector<std::size_t> contacts(planes.size());
+  for (std::size_t k = 0; k < planes.size(); ++k)
+    for (const Plane& plane : touched[k])
+      contacts[k] += count_contacts(plane, SlantedMargin(margin, plane, viewpoint), things);
+  return contacts;
+}
+
 /// The plane on which most things stand. The contacts of planes that are parallel are added up,
 /// because the things on a shelf stand on several boards.
-std::size_t most_touched(const std::vector<PlaneSearch>& planes, const Sample& things) {
-  std::vector<std::size_t> contacts;
-  for (const PlaneSearch& search : planes)
-    contacts.push_back(count_contacts(*search.plane, things));
+std::size_t most_touched(const std::vector<PlaneSearch>& planes,
+                         const std::vector<std::size_t>& contacts) {
   constexpr double least_share_of_support = 0.05;
   std::size_t best = 0, most = 0;
   for (std::size_t i = 0; i < planes.size(); ++i) {
@@ -93,7 +116,8 @@ std::size_t most_touched(const std::vector<PlaneSearch>& planes, const Sample& t
 
 }  // namespace
 
-SupportSearch find_support(const CloudView& cloud, const Sample& sample,
+SupportSearch find_support(const CloudView& cloud, const std::vector<Index>& points,
+                           const PlaneMargin& margin, const Sample& sample,
                            const std::optional<Plane>& guess) {
   PlaneSearch largest = find_plane(sample, cloud.viewpoint, guess);
   if (!largest.plane) return {std::move(largest), {}};
@@ -105,12 +129,20 @@ SupportSearch find_support(const CloudView& cloud, const Sample& sample,
     return {{std::nullopt,
              "no plane: the largest candidate is smaller than a table, and nothing is on it"},
             {}};
-  Sample things;
-  std::vector<PlaneSearch> planes = planes_of(largest, sample, cloud.viewpoint, things);
+  std::vector<PlaneSearch> planes{largest};
+  const auto share_of = [](std::size_t some, std::size_t all) {
+    return static_cast<double>(some) / static_cast<double>(all);
+  };
+  const Sample rest = points_off(*largest.plane, kMarginsOfPlane, sample);
+  add_planes(rest, share_of(rest.size(), sample.size()), cloud.viewpoint, planes);
   // mutant: support-wall
   if (bounds_the_view(*largest.plane, cloud) && planes.size() > 1) {
-    add_parallel(sample, cloud.viewpoint, planes, things);
-    std::swap(planes.front(), planes[most_touched(planes, things)]);
+    // In a room, few points of the first sample are on things.
+    const std::vector<Index> off = points_off(planes, cloud, points, margin);
+    const Sample things = draw_sample(cloud, off, margin);
+    add_planes(things, share_of(off.size(), points.size()), cloud.viewpoint, planes);
+    const auto contacts = contacts_of(planes, margin, cloud.viewpoint, things);
+    std::swap(planes.front(), planes[most_touched(planes, contacts)]);
   }
   SupportSearch search{std::move(planes.front()), {}};
   for (std::size_t k = 1; k < planes.size(); ++k) search.others.push_back(*planes[k].plane);

@@ -1,25 +1,24 @@
 // SPDX-License-Identifier: MIT
 #include "libsegment/src/supports/boards.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "libsegment/src/plane/outline.hpp"
+#include "libsegment/src/vessels/upper_end.hpp"
 
 namespace ph::segment {
 namespace {
 
 /// The area of the convex hull, in square metres, of the points of a sample that are on a plane.
 double area_of_hull(const Plane& plane, const Sample& sample) {
-  const Eigen::Vector3d normal(plane.normal.data()), across = normal.unitOrthogonal(),
-                                                     along = normal.cross(across);
+  const Eigen::Matrix3d turn = upright(plane.normal);
   Outline on;
   for (std::size_t i = 0; i < sample.size(); ++i) {
     const Eigen::Vector3d p = sample[i];
     if (std::abs(plane.signed_distance(p.x(), p.y(), p.z())) <= sample.limits[i])
-      on.emplace_back(across.dot(p), along.dot(p));
+      on.emplace_back((turn * p).head<2>());
   }
   return area_of(hull_of(std::move(on)));
 }
@@ -49,16 +48,10 @@ std::vector<Board> find_boards(const CloudView& cloud, const std::vector<Index>&
   constexpr double least_share_of_floor = 0.02;
   constexpr std::size_t fewest = 50;   // points of the sample
   constexpr double least_step = 0.12;  // metres between parallel boards
-  constexpr double thickness = 0.01;   // half of it, in metres, during the search
-  const Eigen::Vector3d eye(cloud.viewpoint.data()), normal(support.normal.data());
   std::vector<double> offsets{support.offset};
   std::vector<Board> boards;
   Sample rest = points_off(support, kMarginsOfPlane, sample);
-  for (std::size_t i = 0; i < rest.size(); ++i) {
-    // Depth is wrong along the ray, which meets a board at a slant.
-    const Eigen::Vector3d ray = rest[i] - eye;
-    rest.limits[i] = std::max(thickness, margin.noise * ray.norm() * std::abs(normal.dot(ray)));
-  }
+  rest.set_limits(SlantedMargin(margin, support, cloud.viewpoint));
   for (int times = 0; times < most_times && boards.size() < most && rest.size() >= fewest;
        ++times) {
     const PlaneSearch search = find_parallel(support, rest, cloud.viewpoint);

@@ -22,15 +22,14 @@ std::vector<Voxels> voxels_of(const Parts& parts) {
 
 }  // namespace
 
-std::vector<SceneSurface> find_walls(const CloudView& cloud, const Plane& support,
-                                     const SceneTree& scene, const std::vector<Index>& component_of,
-                                     Index min_size) {
+std::vector<SceneSurface> find_bounds(const CloudView& cloud, const Plane& support,
+                                      const SceneTree& scene,
+                                      const std::vector<Index>& component_of, Index min_size) {
   std::vector<SceneSurface> found;
   for (const Voxels& voxels : voxels_of(number_parts(component_of, min_size))) {
     const auto plane = plane_through(scene.vertices, scene.normals, voxels, cloud.viewpoint);
     if (!plane || plane->share < kLeastShareOnSurface) continue;
-    if (is_steep(*plane, support) && bounds_the_view(*plane, cloud))
-      found.push_back({Role::wall, *plane});
+    if (const auto role = role_of_bound(*plane, support, cloud)) found.push_back({*role, *plane});
     if (scene.surfaces.size() + found.size() == kMostSurfaces) break;
   }
   return found;

@@ -81,8 +81,36 @@ void find_removed_supports(const SceneTree& scene, const std::vector<double>& en
   }
 }
 
-/// Sets the role of the legs of tables: slender segments that end at the lower side of a support,
-/// where there is a floor.
+/// True if a segment that ends below a support is under it, and ends at its lower side or where the
+/// support begins to hide it. @param below how far the end is from the upper side of the support.
+bool reaches(const Segment& segment, const SceneSurface& support, const Vec3& viewpoint,
+             double below) {
+  const OrientedBox& box = support.oriented_box;
+  // Coordinates along the axes of the box: the support is at height zero.
+  const auto within = [&](const Vec3& p) -> Vec3 {
+    const double x = p[0] - box.centre[0], y = p[1] - box.centre[1], z = p[2] - box.centre[2];
+    Vec3 result{};
+    for (std::size_t k = 0; k < 2; ++k)
+      result[k] = box.axes[k][0] * x + box.axes[k][1] * y + box.axes[k][2] * z;
+    result[2] = support.plane.signed_distance(p[0], p[1], p[2]);
+    return result;
+  };
+  const auto is_over_box = [&](double x, double y) {
+    const double beyond = segment.oriented_box.size[0];  // the border may be hidden
+    return std::abs(x) <= box.size[0] / 2 + beyond && std::abs(y) <= box.size[1] / 2 + beyond;
+  };
+  const auto [x, y, _] = within(segment.centroid);
+  if (!is_over_box(x, y)) return false;
+  if (below <= kThickestBoard) return true;
+  // The ray to the end passes the lower side of the support here.
+  const Vec3 eye = within(viewpoint);
+  const double share = (below - kThickestBoard) / (below + eye[2]);
+  // mutant: role-hidden
+  return share < 1 && is_over_box(x + share * (eye[0] - x), y + share * (eye[1] - y));
+}
+
+/// Sets the role of the legs of tables: slender segments under a support, where there is a floor.
+/// They end at its lower side, or where the support begins to hide them.
 void find_legs(const SceneTree& scene, const std::vector<double>& tops, SceneCut& cut) {
   constexpr double least_slenderness = 3;
   if (std::ranges::find(scene.surfaces, Role::floor, &SceneSurface::role) == scene.surfaces.end())
@@ -90,11 +118,12 @@ void find_legs(const SceneTree& scene, const std::vector<double>& tops, SceneCut
   for (const SceneSurface& surface : scene.surfaces) {
     if (surface.role != Role::support) continue;
     for (Segment& segment : cut.segments) {
+      const double width = segment.oriented_box.size[1], height = segment.oriented_box.size[2];
       const double below =
           height_of(surface.plane, scene.surfaces.front().plane, segment) - tops[segment.label];
       // mutant: role-leg
-      if (below >= 0 && below <= kThickestBoard + 2 * scene.voxel &&
-          segment.oriented_box.size[2] >= least_slenderness * segment.oriented_box.size[0])
+      if (below >= 0 && height >= least_slenderness * width &&
+          reaches(segment, surface, scene.viewpoint, below - 2 * scene.voxel))
         segment.role = Role::support;
     }
   }

@@ -5,16 +5,20 @@
 #include <cstdint>
 #include <utility>
 
+#include "libsegment/src/objects/oriented_box.hpp"
 #include "libsegment/src/supports/boards.hpp"
 
 namespace ph::segment {
 namespace {
 
-/// Marks the points that were removed with a surface. @param number the number of the surface, from
-/// 1.
-void mark(const std::vector<Index>& points, std::size_t number, SceneTree& tree) {
+/// Marks and measures the points that were removed with a surface. @param number the number of the
+/// surface, from 1.
+void mark(const CloudView& cloud, const std::vector<Index>& points, std::size_t number,
+          SceneTree& tree) {
   for (const Index i : points)
     tree.removed_with[static_cast<std::size_t>(i)] = static_cast<std::uint8_t>(number);
+  SceneSurface& surface = tree.surfaces[number - 1];
+  surface.oriented_box = box_on_plane(cloud, points, surface.plane.normal);
 }
 
 /// Removes the walls and the ceiling: planes behind which nothing is seen. They go before voxels
@@ -24,11 +28,10 @@ std::vector<Index> clear_walls(std::vector<Index> points, const std::vector<Plan
                                const Scene& scene, SceneTree& tree) {
   constexpr double thickness = 0.02;  // half of it, in metres
   for (const Plane& plane : planes) {
-    const bool faces_down = cosine_between(plane, *scene.plane) < -kLeastOfParallel;
-    if ((!faces_down && !is_steep(plane, *scene.plane)) || !bounds_the_view(plane, scene.cloud))
-      continue;
+    const std::optional<Role> role = role_of_bound(plane, *scene.plane, scene.cloud);
+    if (!role) continue;
     Cleared cleared = remove_plane(scene.cloud, points, plane, {thickness, scene.margin.noise});
-    add_surface(faces_down ? Role::ceiling : Role::wall, plane, cleared.on, tree);
+    add_surface(*role, plane, scene.cloud, cleared.on, tree);
     points = std::move(cleared.beyond);
   }
   return points;
@@ -76,9 +79,10 @@ void set_roles(const std::vector<Removed>& supports, const Removed* lowest, cons
 
 }  // namespace
 
-void add_surface(Role role, const Plane& plane, const std::vector<Index>& points, SceneTree& tree) {
+void add_surface(Role role, const Plane& plane, const CloudView& cloud,
+                 const std::vector<Index>& points, SceneTree& tree) {
   tree.surfaces.push_back({role, plane});
-  mark(points, tree.surfaces.size(), tree);
+  mark(cloud, points, tree.surfaces.size(), tree);
 }
 
 void clear_surfaces(const std::vector<Index>& in_range, const std::vector<Plane>& planes,
@@ -88,7 +92,7 @@ void clear_surfaces(const std::vector<Index>& in_range, const std::vector<Plane>
   constexpr double much_hidden = 0.1;
   const CloudView& cloud = scene.cloud;
   const Plane& plane = *scene.plane;
-  add_surface(Role::support, plane, {}, tree);
+  add_surface(Role::support, plane, cloud, {}, tree);
   std::vector<Index> points = clear_walls(in_range, planes, scene, tree);
   const bool has_walls = tree.surfaces.size() > 1;
   std::vector<Board> boards =
@@ -102,13 +106,13 @@ void clear_surfaces(const std::vector<Index>& in_range, const std::vector<Plane>
     std::erase_if(boards, [&](const Board& b) { return b.plane.offset > plane.offset; });
   if (boards.empty()) {
     scene.points = remove_plane(cloud, points, plane, scene.margin);
-    mark(scene.points.on, 1, tree);
+    mark(cloud, scene.points.on, 1, tree);
   } else {
     std::vector<Removed> supports;
     Board main = board_of(cloud, points, plane, scene.margin, scene.range);
     scene.points = has_lower ? remove_board(cloud, points, main)
                              : remove_plane(cloud, points, plane, scene.margin);
-    mark(scene.points.on, 1, tree);
+    mark(cloud, scene.points.on, 1, tree);
     supports.push_back({std::move(main), scene.points.on, 0});
     for (Board& board : boards) {
       const bool is_lowest = has_lower && &board == boards.data();
@@ -117,7 +121,7 @@ void clear_surfaces(const std::vector<Index>& in_range, const std::vector<Plane>
                                   : remove_board(cloud, rest, board);
       rest = std::move(cleared.beyond);
       scene.others.push_back({board.plane, board.margin, std::move(cleared.strip)});
-      add_surface(Role::support, board.plane, cleared.on, tree);
+      add_surface(Role::support, board.plane, cloud, cleared.on, tree);
       supports.push_back({std::move(board), std::move(cleared.on), tree.surfaces.size() - 1});
     }
     const Removed* lowest = has_lower                 ? &supports[1]

@@ -32,7 +32,8 @@ struct Scene {
 };
 
 /// Adds a surface to a tree, and marks the points that were removed with it.
-void add_surface(Role role, const Plane& plane, const std::vector<Index>& points, SceneTree& tree);
+void add_surface(Role role, const Plane& plane, const CloudView& cloud,
+                 const std::vector<Index>& points, SceneTree& tree);
 
 /// Removes all surfaces of a scene from its points: the walls, the ceiling, the supporting plane,
 /// and the supports that are parallel to it. The objects on the supports stay. The surfaces and

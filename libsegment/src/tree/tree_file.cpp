@@ -74,6 +74,9 @@ std::string tree_bytes(const SceneTree& scene) {
     put_all(bytes, surface.plane.normal);
     number(surface.plane.offset);
     number(surface.plane.share);
+    put_all(bytes, surface.oriented_box.centre);
+    for (const Vec3& axis : surface.oriented_box.axes) put_all(bytes, axis);
+    put_all(bytes, surface.oriented_box.size);
   }
   for (const NoiseAt& noise : scene.noise) {
     number(noise.range);

@@ -14,13 +14,13 @@ namespace ph::segment {
 // arrays, and a checksum. Values that follow from other values are not stored and therefore cannot
 // contradict them. Examples are the elder and the younger side of a merge, and sizes.
 inline constexpr std::string_view kTreeMagic = "ph-tree\n";
-inline constexpr std::int64_t kTreeVersion = 3;
+inline constexpr std::int64_t kTreeVersion = 4;
 inline constexpr std::size_t kTreeWord = 8, kTreeHeader = 28 * kTreeWord;
 inline constexpr std::size_t kTreeSum = 4;
 // The entry of a point without a vertex is this number minus the number of the removed surface that
 // contains the point. The number of the surface is 0 if no removed surface contains the point.
 inline constexpr std::uint32_t kTreeNoVertex = UINT32_MAX;
-inline constexpr std::size_t kTreeSurface = 6 * kTreeWord, kTreeNoise = 2 * kTreeWord;
+inline constexpr std::size_t kTreeSurface = 21 * kTreeWord, kTreeNoise = 2 * kTreeWord;
 
 /// Calls `use(vertex, point)` for each point of the cloud. The vertex is empty if the point has no
 /// vertex.

@@ -140,6 +140,10 @@ class TreeReader {
       require_unit("normal of a surface", surface.plane.normal);
       surface.plane.offset = number("offset of a surface");
       surface.plane.share = number("share of a surface", 0, 1);
+      OrientedBox& box = surface.oriented_box;
+      box.centre = finite("centre of a surface");
+      for (Vec3& axis : box.axes) axis = finite("axis of a surface");
+      for (double& size : box.size) size = number("size of a surface", 0);
       if (k == 0 && surface.plane != *scene_.plane)
         fail("first surface", "a different plane", "the plane of the header");
     }

@@ -85,10 +85,20 @@ class SceneSurface(NamedTuple):
     plane : tuple of float
         (a, b, c, d) of ax + by + cz + d = 0. The left-hand side is positive for points on the same
         side of the plane as the camera.
+    centre : tuple of float
+        The middle of the tight box around the points that were removed with the surface.
+    axes : tuple of three tuples of float
+        Three unit vectors along this box. The last vector is the normal of the plane.
+    size : tuple of float
+        The length of this box along each axis, in metres; (0, 0, 0) for a wall or a ceiling that
+        was found among the segments.
     """
 
     role: str
     plane: tuple[float, float, float, float]
+    centre: tuple[float, float, float]
+    axes: tuple[tuple[float, float, float], tuple[float, float, float], tuple[float, float, float]]
+    size: tuple[float, float, float]
 
 
 class Objects(Sequence[Segment]):

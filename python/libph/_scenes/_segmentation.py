@@ -106,8 +106,7 @@ class Segmentation:
                  "version": version}
         self.meta = Meta({key: value for key, value in known.items() if value != ""})
         self.objects = Objects(segment_of(facts) for facts in found.segments)
-        self.surfaces = tuple(SceneSurface(role, (a, b, c, d))
-                              for role, (a, b, c, d) in found.surfaces)
+        self.surfaces = tuple(SceneSurface(*facts) for facts in found.surfaces)
         self.surface_labels = np.asarray(found.surface_labels)
         self.surface_labels.flags.writeable = False
         return self

@@ -138,12 +138,18 @@ std::vector<std::map<std::string, py::object>> segments(const SegmentedScene& sc
   return all;
 }
 
-/// The role of each surface and its plane a x + b y + c z + d = 0.
-std::vector<std::pair<std::string, std::array<double, 4>>> surfaces(const SegmentedScene& scene) {
-  std::vector<std::pair<std::string, std::array<double, 4>>> all;
+/// For each surface, its role, its plane a x + b y + c z + d = 0, and the centre, the axes and the
+/// size of its box.
+std::vector<py::tuple> surfaces(const SegmentedScene& scene) {
+  std::vector<py::tuple> all;
   for (const segment::SceneSurface& s : scene.result.tree.surfaces) {
     const auto& [a, b, c] = s.plane.normal;
-    all.emplace_back(segment::role_name(s.role), std::array{a, b, c, s.plane.offset});
+    const segment::OrientedBox& box = s.oriented_box;
+    const auto row = [](const segment::Vec3& v) { return py::make_tuple(v[0], v[1], v[2]); };
+    all.push_back(py::make_tuple(
+        std::string(segment::role_name(s.role)), py::make_tuple(a, b, c, s.plane.offset),
+        row(box.centre), py::make_tuple(row(box.axes[0]), row(box.axes[1]), row(box.axes[2])),
+        row(box.size)));
   }
   return all;
 }

@@ -189,7 +189,7 @@ TEST(DamagedTree, EveryByteCounts) {
 TEST(DamagedTree, HeadersThatLie) {
   const std::string bytes = tree_bytes(segment(CloudView{stack().xyz(), {}}).tree);
   const double nan = std::nan("");
-  for (const std::int64_t version : {1, 2, 4})
+  for (const std::int64_t version : {1, 2, 3, 5})
     EXPECT_NE(refusal(with_word(bytes, 1, version)).find("segment the cloud again"),
               std::string::npos);
   for (const std::size_t word : {25U, 26U, 27U})  // surfaces, removed surfaces, noise values
@@ -248,6 +248,9 @@ TEST(DamagedTree, ContentsThatCannotBe) {
   EXPECT_TRUE(says(damaged([](SceneTree& t) { t.surfaces[0].role = Role::wall; }), "role"));
   EXPECT_TRUE(says(damaged([](SceneTree& t) { t.surfaces[0].plane.offset += 1; }), "surface"));
   EXPECT_TRUE(says(damaged([](SceneTree& t) { t.surfaces[0].plane.normal[0] += 1; }), "surface"));
+  EXPECT_TRUE(says(damaged([](SceneTree& t) { t.surfaces[0].oriented_box.size[0] = -1; }), "size"));
+  EXPECT_TRUE(says(damaged([](SceneTree& t) { t.surfaces[0].oriented_box.axes[1][2] = kInfinity; }),
+                   "axis"));
   EXPECT_TRUE(says(damaged([](SceneTree& t) { t.noise.push_back({1, -1}); }), "noise"));
   EXPECT_TRUE(says(damaged([](SceneTree& t) { t.noise.assign({{2, 1}, {1, 1}}); }), "noise"));
   // Such a tree cannot be written, so the damage is done to its bytes.

@@ -18,12 +18,18 @@ inline std::string json_of(const CutOptions& o) {
                        {"objects", json::boolean(o.objects)}});
 }
 
+inline std::string json_of(const OrientedBox& box) {
+  return json::object({{"centre", json::numbers(box.centre)},
+                       {"axes", json::array(box.axes, json::numbers<Vec3>)},
+                       {"size", json::numbers(box.size)}});
+}
 inline std::string json_of(const std::vector<SceneSurface>& surfaces) {
   return json::lines(surfaces, [number = Index{0}](const SceneSurface& surface) mutable {
     return json::object({{"number", json::integer(++number)},
                          {"role", json::string(role_name(surface.role))},
                          {"normal", json::numbers(surface.plane.normal)},
-                         {"offset", json::number(surface.plane.offset)}});
+                         {"offset", json::number(surface.plane.offset)},
+                         {"oriented_box", json_of(surface.oriented_box)}});
   });
 }
 inline std::string json_of(const std::vector<NoiseAt>& noise) {
