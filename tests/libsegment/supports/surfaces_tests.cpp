@@ -172,13 +172,14 @@ TEST(Surfaces, ATableHasLegs) {
 }
 
 TEST(Surfaces, TheTableHidesTheUpperEndsOfItsLegs) {
-  const auto leg = [](double x, double y, double top = -0.02) {
-    return Block{{x, y, -0.7}, {x + 0.05, y + 0.05, top}};
+  const auto leg = [](double x, double y) {
+    return Block{{x, y, -0.7}, {x + 0.05, y + 0.05, -0.02}};
   };
   const Block floor{{-3, -3, -0.72}, {3, 3, -0.7}}, table{{-0.5, -0.3, -0.02}, {0.5, 0, 0}};
+  const Block low{{-0.04, -0.29, -0.7}, {0.04, -0.21, -0.4}};
   // One sees that the post under the table is too low, and the one beside the table is no leg.
   const Room room({floor, table, leg(-0.5, -0.3), leg(0.45, -0.3), leg(-0.5, -0.05),
-                   leg(0.45, -0.05), leg(0, -0.28, -0.5), leg(0.7, -0.05)});
+                   leg(0.45, -0.05), low, leg(0.7, -0.05)});
   const Segmentation s = room.segmented();
   const auto segment = [&](int block) { return s.cut.segments.at(room.label_of(s, block) - 1); };
   for (const int block : {2, 3, 4, 5}) EXPECT_EQ(segment(block).role, Role::support) << block;
