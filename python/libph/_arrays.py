@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 import os
+import sys
 from collections.abc import Sequence
 from typing import Any
 
@@ -122,14 +123,15 @@ def _without_mask(data: Any, name: str) -> NDArray[Any]:
 def _numbers_of_objects(array: NDArray[Any], name: str) -> NDArray[np.float64]:
     """An array of objects that are real numbers: Fraction, Decimal, Python's large integers,
     pandas' NA."""
+    pandas = sys.modules.get("pandas")  # its objects exist only if it is imported
+    missing = (None, getattr(pandas, "NA", None), getattr(pandas, "NaT", None))
     numbers = np.empty(array.shape, dtype=np.float64)
     for index in np.ndindex(array.shape):
         value = array[index]
         try:
             if isinstance(value, (str, bytes, complex, np.complexfloating)):
                 raise TypeError
-            number = float("nan") if value is None or type(value).__name__ in ("NAType", "NaTType") \
-                else float(value)
+            number = float("nan") if any(value is it for it in missing) else float(value)
         except OverflowError:
             raise DataError(f"{name}: {place_of(index)}: found a number beyond the range of "
                             "float64") from None

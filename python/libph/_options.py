@@ -12,8 +12,11 @@ import sys
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any
 
+import numpy as np
+
 from ._errors import UsageError
 
+_BOOLS = (bool, np.bool_)
 _UNITS = {"": 1, "B": 1, "K": 10**3, "M": 10**6, "G": 10**9, "T": 10**12,
           "KI": 2**10, "MI": 2**20, "GI": 2**30, "TI": 2**40}
 
@@ -33,7 +36,7 @@ def refuse(name: str, value: Any, expected: str) -> UsageError:
 def whole(name: str, value: Any, least: int, most: int = 2**63 - 1) -> int:
     """A whole number from `least` to `most`."""
     try:
-        if isinstance(value, bool):
+        if isinstance(value, _BOOLS):
             raise TypeError
         number = operator.index(value)
     except TypeError:
@@ -49,7 +52,7 @@ def whole(name: str, value: Any, least: int, most: int = 2**63 - 1) -> int:
 def real(name: str, value: Any, expected: str = "a number", least: float = -math.inf) -> float:
     """A number that is not NaN."""
     try:
-        if isinstance(value, (bool, str, bytes)) or not (
+        if isinstance(value, (*_BOOLS, str, bytes)) or not (
                 isinstance(value, numbers.Real) or hasattr(value, "__float__")):
             raise TypeError
         number = float(value)
@@ -70,16 +73,20 @@ def positive(name: str, value: Any) -> float:
 
 def flag(name: str, value: Any) -> bool:
     """True or False, including NumPy's."""
-    if isinstance(value, bool):
-        return value
-    if type(value).__name__ in ("bool_", "bool") and hasattr(value, "dtype"):
+    if isinstance(value, _BOOLS):
         return bool(value)
     raise refuse(name, value, "True or False")
 
 
 def choice(name: str, value: Any, names: Iterable[Any]) -> Any:
-    """One of a few words."""
+    """One of a few words. A scalar of NumPy counts as the Python object that it holds.
+
+    >>> choice("collapse", np.True_, ["auto", True, False])
+    True
+    """
     names = list(names)
+    if isinstance(value, np.generic):
+        value = value.item()
     if not (isinstance(value, (str, bool, int, float)) or value is None) or not any(
             value == known and type(value) is type(known) for known in names):
         raise refuse(name, value, " or ".join(
@@ -121,15 +128,15 @@ def axes(name: str, value: Any, count: int) -> list[bool]:
     [True, False, True]
     """
     expected = f"axes from {-count} to {count - 1}, {count} bools, True or False"
-    if isinstance(value, bool):
-        return [value] * count
+    if isinstance(value, _BOOLS):
+        return [bool(value)] * count
     if isinstance(value, (str, bytes)):
         raise refuse(name, value, expected)
     try:
         given: Sequence[Any] = list(value) if isinstance(value, Iterable) else [value]
     except TypeError:
         raise refuse(name, value, expected) from None
-    if given and all(isinstance(axis, bool) or type(axis).__name__ == "bool_" for axis in given):
+    if given and all(isinstance(axis, _BOOLS) for axis in given):
         if len(given) != count:
             raise refuse(name, value, expected)
         return [bool(axis) for axis in given]

@@ -14,12 +14,14 @@ IMAGE = np.arange(12).reshape(3, 4)
 NAN, INF = float("nan"), float("inf")
 
 # (function, its data, option, refused values)
-WHOLE = ["x", None, 1.5, NAN, INF, [1], (1,), {}, 2**70, -2**70, True, np.array([1, 2]), 1j]
+WHOLE = ["x", None, 1.5, NAN, INF, [1], (1,), {}, 2**70, -2**70, True, np.True_,
+         np.array([1, 2]), 1j]
 REFUSED = [
     (ph.rips, SQUARE, "max_dim", [-1, *[v for v in WHOLE if v is not None]]),
     (ph.rips, SQUARE, "min_dim", [-1, *WHOLE]),
     (ph.rips, SQUARE, "field", [0, 1, 4, 9, -3, 2**31, 2**31 + 11, *WHOLE]),
-    (ph.rips, SQUARE, "threshold", ["x", -1, -INF, NAN, [1], True, 1j, np.array([1, 2])]),
+    (ph.rips, SQUARE, "threshold", ["x", -1, -INF, NAN, [1], True, np.True_, 1j,
+                                    np.array([1, 2])]),
     (ph.rips, SQUARE, "metric", ["x", "", None, 3, ["euclidean"], "Euclidean", b"euclidean"]),
     (ph.rips, SQUARE, "minkowski_p", [3, 0.5, NAN, "2", None]),
     (ph.rips, SQUARE, "weights", ["DTM", "x", 1, [1, 2]]),
@@ -110,6 +112,14 @@ def test_numbers_of_numpy_are_numbers():
         ph.rips(SQUARE, max_dim=2, threshold=1.5, field=3)
 
 
+def test_scalars_of_numpy_are_choices():
+    """An array of words or bools, such as a row of a table of options, has such scalars."""
+    words = np.array(["euclidean", "drop"])
+    assert ph.rips(SQUARE, metric=words[0], nan=words[1], collapse=np.True_) == ph.rips(SQUARE)
+    with pytest.raises(ph.UsageError, match="^nan: found 'euclidean', expected 'error' or 'drop'"):
+        ph.rips(SQUARE, nan=words[0])
+
+
 def test_names_of_engines():
     for name in ("auto", "standard", "cohomology", "edge-links", "lens"):
         assert ph.rips(SQUARE, engine=name) == ph.rips(SQUARE)
@@ -132,9 +142,10 @@ def test_axes_that_close_up():
     image = np.random.default_rng(0).integers(0, 9, size=(4, 5, 3))
     both = ph.cubical(image, periodic=[0, 2])
     for same in ((0, -1), [True, False, True], np.array([0, 2]), {0, 2},
-                 np.array([True, False, True])):
+                 np.array([True, False, True]), (np.True_, False, np.True_)):
         assert ph.cubical(image, periodic=same) == both
-    assert ph.cubical(image, periodic=True) == ph.cubical(image, periodic=[0, 1, 2])
+    for every in (True, np.True_):
+        assert ph.cubical(image, periodic=every) == ph.cubical(image, periodic=[0, 1, 2])
     assert ph.cubical(image, periodic=1) == ph.cubical(image, periodic=[1])
     assert ph.cubical(image, periodic=False) == ph.cubical(image)
     assert both.meta["periodic"] == (0, 2)

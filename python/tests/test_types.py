@@ -185,7 +185,7 @@ def functions_of_stub():
                     yield f"{node.name}.{member.name}", member
 
 
-@pytest.mark.parametrize("name, function", functions_of_stub())
+@pytest.mark.parametrize("name, function", [*functions_of_stub()])
 def test_stub_knows_arguments(name, function):
     """stubtest does not check this, because the module has the parameters only in its
     docstrings."""
