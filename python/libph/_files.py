@@ -46,17 +46,6 @@ class Mesh(NamedTuple):
     values: NDArray[np.float64] | None
 
 
-def path_of(path: Any, argument: str = "path") -> bytes:
-    """The path in the form that _core expects; "-" is a file of this name."""
-    try:
-        name = os.fsencode(path)
-    except (TypeError, UnicodeError):
-        name = b""
-    if b"\0" in name or not name:
-        raise _options.refuse(argument, path, "a path")
-    return b"./-" if name == b"-" else name
-
-
 def read(path: str | os.PathLike[str], format: str | None = None, *,
          values: str | os.PathLike[str] | None = None, nan: str = "error",
          columns: Sequence[str] | None = None, array: str = "auto", symmetrise: str | None = None,
@@ -146,11 +135,12 @@ def found_by(path: Any, format: Any, values: Any, nan: Any, columns: Any, array:
     if name != "raw" and (raw_shape is not None or dtype != np.uint8 or options["raw_skip"]):
         raise _errors.UsageError("raw_shape, raw_dtype, raw_skip: found format "
                                  f"{name!r}, expected 'raw' and a raw_shape")
-    file = path_of(path)
+    file = _options.path_of(path)
     if format is None and columns is None and _is_barcode(file):
         raise _errors.DataError(f"{os.fsdecode(file)}: found a barcode, expected data; "
                                 "ph.read_barcode reads it")
-    found = _run.run(_core.read, file, name, b"" if values is None else path_of(values), options,
+    found = _run.run(_core.read, file, name,
+                     b"" if values is None else _options.path_of(values), options,
                      options=dict(run))
     _LOG.info("%s: %s", os.fspath(path), found["description"])
     for note in found["notes"]:
@@ -220,7 +210,7 @@ def read_barcode(path: str | os.PathLike[str], format: str | None = None,
     Barcode
     """
     _run.check_names("read_barcode", dict(run))
-    bars, meta = _run.run(_core.read_barcode, path_of(path),
+    bars, meta = _run.run(_core.read_barcode, _options.path_of(path),
                           None if format is None else str(format), options=dict(run))
     return Barcode._made(bars, {name: value for name, value in meta.items()
                                 if value is not None and value != ""})

@@ -7,6 +7,7 @@ import inspect
 import math
 import numbers
 import operator
+import os
 import re
 import sys
 from collections.abc import Callable, Iterable, Mapping, Sequence
@@ -112,6 +113,17 @@ def size(name: str, value: Any) -> int:
     if not 1 <= amount < 2**63:
         raise refuse(name, value, expected)
     return int(amount)
+
+
+def path_of(path: Any, argument: str = "path") -> bytes:
+    """The path in the form that _core expects; "-" is a file of this name."""
+    try:
+        name = os.fsencode(path)
+    except (TypeError, UnicodeError):
+        name = b""
+    if b"\0" in name or not name:
+        raise refuse(argument, path, "a path")
+    return b"./-" if name == b"-" else name
 
 
 def several(name: str, values: Any, what: str) -> list[Any]:

@@ -7,11 +7,11 @@ import os
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from . import _arrays, _core, _run
+from . import _arrays, _core, _options, _run
 from ._compute import boundary, filtered, lower_star, rips
 from ._errors import DataError, NotBuiltIn, UsageError
 from ._estimate import request_of
-from ._files import Boundary, Mesh, Simplices, path_of
+from ._files import Boundary, Mesh, Simplices
 from ._options import arguments_of
 from ._requests import (ALPHA_VALUES, PointImage, Request, boundary_request, filtered_request,
                         lower_star_request, rips_request)
@@ -59,7 +59,7 @@ class Report:
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Writes the page to a file, completely or not at all."""
-        _run.run(_core.write_page, path_of(path), self._page, options={})
+        _run.run(_core.write_page, _options.path_of(path), self._page, options={})
 
     def __repr__(self) -> str:
         return f"Report({self.title!r}, {len(self._page) / 1e6:.1f} MB)"

@@ -10,7 +10,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _arrays, _core, _options, _run
 from ._errors import DataError, UsageError
-from ._files import path_of
 from ._requests import alpha_recipe
 from ._sources import source_of
 
@@ -52,7 +51,7 @@ class Surface(NamedTuple):
         UsageError, DataError
             If the arrays do not fit together as they do in the result of `alpha_shape`.
         """
-        name = path_of(path)
+        name = _options.path_of(path)
         if not name.lower().endswith((b".ply", b".off")):
             raise _options.refuse("path", path, "a name that ends in .ply or .off")
         points, triangles, regular = self._checked()

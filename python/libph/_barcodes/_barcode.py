@@ -303,8 +303,7 @@ class Barcode(Cells, Summaries, Sequence[Bar]):
         format : str, optional
             "csv", "json", "ripser", "pers", "dipha" or "npy".
         """
-        from .._files import path_of
-        _run.run(_core.save, self._bars, path_of(path),
+        _run.run(_core.save, self._bars, _options.path_of(path),
                  None if format is None else str(format), origin_of(self.meta), options={})
 
     def plot(self, kind: str = "diagram", ax: Axes | None = None, *,

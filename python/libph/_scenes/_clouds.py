@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 
 from .. import _arrays, _core, _options, _run
 from .._errors import DataError, MissingInputError, UsageError
-from .._files import path_of
 
 
 class Scene(NamedTuple):
@@ -36,7 +35,8 @@ def scene_of(data: Any, *, colours: Any, intrinsics: Any, camera: Any, depth_sca
             return Scene(_cloud(data, colours, run), name, False)
         if colours is not None:
             raise UsageError("colours: does nothing for a cloud file, whose own colours are read")
-        return Scene(_run.run(_core.read_scene, path_of(data, "cloud"), options=run), name, False)
+        return Scene(_run.run(_core.read_scene, _options.path_of(data, "cloud"), options=run), name,
+                     False)
     seen_by = _camera(intrinsics, camera, run)
     scale = None if depth_scale is None else _scale(depth_scale)
     if colours is not None and isinstance(colours, (str, bytes, os.PathLike)) != is_path:
@@ -44,9 +44,9 @@ def scene_of(data: Any, *, colours: Any, intrinsics: Any, camera: Any, depth_sca
                               else "an array, like the depth image")
     if not is_path:
         return Scene(_depth(data, colours, seen_by, scale, run), name, True)
-    cloud = _run.run(_core.read_depth, path_of(data, "cloud"),
-                     b"" if colours is None else path_of(colours, "colours"), seen_by, scale,
-                     options=run)
+    cloud = _run.run(_core.read_depth, _options.path_of(data, "cloud"),
+                     b"" if colours is None else _options.path_of(colours, "colours"), seen_by,
+                     scale, options=run)
     return Scene(cloud, name, True)
 
 
@@ -64,7 +64,7 @@ def _camera(intrinsics: Any, name: Any, run: dict[str, Any]) -> _core.Camera:
     known = _core.camera_named(name) if isinstance(name, str) else None
     if known is not None:
         return known
-    path = path_of(name, "camera")
+    path = _options.path_of(name, "camera")
     if not os.path.exists(path):
         raise MissingInputError(f"camera: found {os.fsdecode(path)!r}, expected an existing file "
                                 f"or one of {', '.join(_core.camera_names())}")

@@ -15,7 +15,6 @@ from .. import _core, _options, _run
 from .._barcodes import Barcode
 from .._results import Meta, require_version, with_arrays
 from .._errors import UsageError
-from .._files import path_of
 from .._report import Report, require_page
 from .._trees import MergeTree
 from ._objects import Objects, SceneSurface, segment_of
@@ -297,7 +296,7 @@ class Segmentation:
         format : str, optional
             One of these extensions without its dot.
         """
-        file = path_of(path)
+        file = _options.path_of(path)
         extension = os.path.splitext(os.fsdecode(file))[1].lower()
         known = _FORMATS.get(extension) if format is None else format
         if known not in _FORMATS.values():
