@@ -17,7 +17,6 @@ from numpy.typing import DTypeLike, NDArray
 from . import _core
 from ._errors import DataError, MemoryLimitError, UsageError
 
-_MASKED: Any = np.ma  # its functions have no type annotations in NumPy 1
 _LARGEST = 2**53  # all whole numbers up to this one are doubles
 _LARGE = 2**24  # bytes
 _WORDS = {"c": "complex numbers, expected real ones; take .real or abs()",
@@ -45,6 +44,11 @@ def is_sparse(data: Any) -> bool:
     return hasattr(data, "tocoo") and hasattr(data, "nnz")
 
 
+def is_masked(data: Any) -> bool:
+    """True for a masked array. There is none as long as nothing has imported numpy.ma."""
+    return "numpy.ma" in sys.modules and isinstance(data, np.ma.MaskedArray)
+
+
 def sparse_entries(matrix: Any, name: str = "X"
                    ) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.float64]]:
     """Row, column and value of each entry that a sparse matrix stores."""
@@ -63,7 +67,7 @@ def as_array(data: Any, name: str) -> NDArray[Any]:
         array = data
     elif is_sparse(data):
         raise UsageError(f"{name}: found a sparse matrix, expected an array; .toarray() makes one")
-    elif isinstance(data, np.ma.MaskedArray):
+    elif is_masked(data):
         array = _without_mask(data, name)
     else:
         array = _converted(data, name)
@@ -112,12 +116,13 @@ def _ragged(data: Any) -> str:
 
 def _without_mask(data: Any, name: str) -> NDArray[Any]:
     """The numbers of a masked array; masked numbers become NaN."""
-    numbers: NDArray[Any] = _MASKED.getdata(data)
-    if not _MASKED.is_masked(data):
+    masked: Any = np.ma  # its functions have no type annotations in NumPy 1
+    numbers: NDArray[Any] = masked.getdata(data)
+    if not masked.is_masked(data):
         return numbers
     if data.dtype.kind not in "biuf":
         raise DataError(f"{name}: found masked entries of type {data.dtype}, expected numbers")
-    return as_float64(numbers, name, _MASKED.getmaskarray(data))
+    return as_float64(numbers, name, masked.getmaskarray(data))
 
 
 def _numbers_of_objects(array: NDArray[Any], name: str) -> NDArray[np.float64]:

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _arrays, _core, _options, _run
+from ._compute import rips
 from ._errors import DataError, UsageError
 from ._requests import PointImage, rips_request
 from ._sources import source_of
@@ -259,9 +260,7 @@ def collapse(distances: Any, *, threshold: float | None = None, nan: str = "erro
     from scipy.sparse import coo_array
     _run.check_names("collapse", run, collapse)
     _options.choice("diagonal", diagonal, ["zero", "any"])
-    from ._compute import rips
-    from ._options import arguments_of
-    request = rips_request(arguments_of(rips, distances, {
+    request = rips_request(_options.arguments_of(rips, distances, {
         "metric": "precomputed", "threshold": threshold, "nan": nan, "diagonal": diagonal,
         "symmetrise": symmetrise, "merge_equal_points": False, **run}))
     u, v, values = _run.run(_core.collapsed_edges, request.recipe, options=request.options)

@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextvars import ContextVar
 from typing import Any, Protocol, TypedDict, TypeVar, Union
 
-from . import _core, _hints, _options
+from . import _core, _imports, _options
 
 Progress = Union[bool, Callable[[str, int, int], object]]
 _Result = TypeVar("_Result")
@@ -83,9 +83,10 @@ def run(function: Callable[..., _Result], *arguments: Any, options: dict[str, An
     if not options and not defaults and not slab_layers:
         return function(*arguments, _PLAIN)
     given = _check({**defaults, **{k: v for k, v in options.items() if v is not None}})
-    with _reporter(given.get("progress", False)) as progress:
+    progress = given.get("progress")
+    with _bar() if progress is True else contextlib.nullcontext(progress) as report:
         return function(*arguments, _core.RunOptions(
-            given.get("threads", 0), given.get("memory_limit"), given.get("timeout"), progress,
+            given.get("threads", 0), given.get("memory_limit"), given.get("timeout"), report,
             given.get("stop"), slab_layers))
 
 
@@ -97,6 +98,7 @@ def check_names(function: str, options: Mapping[str, object],
     """
     for name in options:
         if name not in _NAMES:
+            from . import _hints
             others = inspect.signature(known).parameters if callable(known) else known
             raise TypeError(f"{function}() got an unexpected keyword argument '{name}'"
                             + _hints.of_keyword(name, [*others, *_NAMES]))
@@ -115,22 +117,17 @@ def _check(given: dict[str, Any]) -> dict[str, Any]:
         elif name == "stop" and not callable(getattr(value, "is_set", None)):
             raise _options.refuse(name, value, "a threading.Event")
         elif name == "progress" and not callable(value):
-            value = _options.flag(name, value)
+            value = _options.flag(name, value) or None
         checked[name] = value
     return checked
 
 
 @contextlib.contextmanager
-def _reporter(progress: Progress) -> Iterator[Callable[[str, int, int], object] | None]:
-    """The callback for progress: for True, a tqdm bar if tqdm is installed."""
-    if not isinstance(progress, bool):
-        yield progress
-        return
+def _bar() -> Iterator[Callable[[str, int, int], object] | None]:
+    """A callback that shows progress as a tqdm bar; None if tqdm is not installed."""
     try:
-        from tqdm.auto import tqdm
+        tqdm = _imports.load("tqdm.auto").tqdm
     except ImportError:
-        tqdm = None
-    if not progress or tqdm is None:
         yield None
         return
     bar: Any = None

@@ -113,7 +113,7 @@ def _depth(data: Any, colours: Any, camera: _core.Camera, scale: float | None, r
         raise UsageError(f"cloud: found an array of shape {array.shape}, expected a depth image of "
                          "rows and columns, because a camera is given")
     if scale is None:  # masked integers have been converted to floats
-        given = data if isinstance(data, np.ma.MaskedArray) else array
+        given = data if _arrays.is_masked(data) else array
         scale = 1.0 if given.dtype.kind == "f" else 1000.0
     image = _arrays.side_by_side(_arrays.as_image(array, "cloud"), "cloud")
     bytes_of = None if colours is None else _colours(colours, array.shape)
