@@ -34,9 +34,10 @@ std::size_t memory_left() {
   return all - std::min<std::size_t>(all, status_bytes("RssAnon:").value_or(0));
 }
 
-std::shared_ptr<RunContext> new_context(const RunOptions& options) {
+std::shared_ptr<RunContext> new_context(const RunOptions& options, bool is_short) {
   auto context = std::make_shared<RunContext>();
-  context->threads = options.threads;
+  // A second thread would take longer to start than a short computation takes.
+  context->threads = is_short && options.threads == 0 ? 1 : options.threads;
   context->slab_layers = options.slab_layers;
   if (options.memory_limit) context->memory.set_limit(*options.memory_limit);
   return context;
@@ -96,11 +97,14 @@ News news_of(const Progress& progress) {
   return {std::string(progress.stage), progress.done, progress.total};
 }
 
-/// A computation on its own thread, and its messages to the caller's thread.
+/// A computation that is watched, and its messages to the caller's thread.
 class Computation {
  public:
-  Computation(const RunOptions& options, const Task& task)
-      : options_(options), task_(task), context_(new_context(options)) {
+  Computation(const RunOptions& options, bool is_short, const Task& task)
+      : options_(options),
+        is_short_(is_short),
+        task_(task),
+        context_(new_context(options, is_short)) {
     context_->stop = stop_.get_token();
     if (!options.progress.is_none())
       context_->on_progress = [this](const Progress& progress) { tell(progress); };
@@ -110,28 +114,35 @@ class Computation {
 
   /// Runs the computation and waits until it is done.
   void run() {
-    if (!options_.memory_limit) context_->memory.set_limit(memory_left());
+    if (!options_.memory_limit && !is_short_) context_->memory.set_limit(memory_left());
     look(std::nullopt);  // a stop may have been requested before a short computation begins
     context_->poll();
-    std::jthread worker;
-    try {
-      worker = std::jthread([this] { compute(); });
-      unless_it_throws([this] { watch(); });
-    } catch (const std::system_error&) {
-      // If the system has no thread left, the computation itself checks for stops whenever it
-      // reports progress.
-      context_->on_progress = [this](const Progress& progress) {
-        unless_it_throws([&] { look_in_between(progress); });
-      };
-      compute();
-    }
-    if (worker.joinable()) worker.join();
+    if (is_short_ || !run_on_own_thread()) run_on_this_thread();
     context_->on_progress = nullptr;  // the thread may outlive this call
     if (of_caller_) std::rethrow_exception(of_caller_);
     if (error_) rethrow_error();
   }
 
  private:
+  /// Returns false if the system has no thread left.
+  bool run_on_own_thread() {
+    std::jthread worker;
+    try {
+      worker = std::jthread([this] { compute(); });
+    } catch (const std::system_error&) {
+      return false;
+    }
+    unless_it_throws([this] { watch(); });
+    return true;
+  }
+  /// The computation itself checks for stops whenever it reports progress.
+  void run_on_this_thread() {
+    context_->on_progress = [this](const Progress& progress) {
+      unless_it_throws([&] { look_in_between(progress); });
+    };
+    compute();
+  }
+
   // This function is called on the computation's thread.
   void compute() {
     try {
@@ -202,6 +213,7 @@ class Computation {
   }
 
   const RunOptions& options_;
+  const bool is_short_;
   const Task& task_;
   const Clock::time_point start_ = Clock::now();
   std::stop_source stop_;
@@ -224,7 +236,7 @@ Timeout::Timeout(double seconds)
 
 void run_task(const RunOptions& options, bool is_short, const Task& task) {
   if (!is_short || options.is_watched()) {
-    Computation computation(options, task);
+    Computation computation(options, is_short, task);
     const Calls::Call call(&computation.stop());
     const py::gil_scoped_release no_gil;
     computation.run();
@@ -232,10 +244,7 @@ void run_task(const RunOptions& options, bool is_short, const Task& task) {
   }
   const Calls::Call call;
   const py::gil_scoped_release no_gil;
-  const std::shared_ptr<RunContext> context = new_context(options);
-  // A second thread would take longer to start than the computation takes.
-  if (options.threads == 0) context->threads = 1;
-  task(context);
+  task(new_context(options, is_short));
 }
 
 void bind_run(py::module_& m) {

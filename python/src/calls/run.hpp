@@ -48,8 +48,9 @@ using SharedContext = std::shared_ptr<const RunContext>;
 /// the caller's thread checks every 20 ms for signals (such as Ctrl-C, because Python handles
 /// signals only on its main thread), progress, a stop and the time limit. An exception from a
 /// signal handler or a callback stops the computation and is rethrown. Tasks that are certainly
-/// short run on the caller's thread. If the system has no thread left, all tasks run on the
-/// caller's thread. They then check whenever they report progress.
+/// short run on the caller's thread, because a thread takes longer to start than they take. If the
+/// system has no thread left, all tasks run on the caller's thread. Tasks on the caller's thread
+/// check at their start, and whenever they report progress.
 /// @param is_short true if the task takes milliseconds at most.
 /// @throws the exceptions of `task`; Timeout; Error (cancelled); py::error_already_set.
 void run_task(const RunOptions& options, bool is_short,
