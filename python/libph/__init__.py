@@ -25,11 +25,10 @@ stop : threading.Event
 
 The data must not change while a computation runs. `limits` sets defaults for a block of code.
 
-Three modules are loaded on first use: `libph.sklearn` and `libph.torch`, which need scikit-learn
-and torch, and `libph.compat`, which offers the interfaces of other packages.
+All names are loaded on first use. ``from libph import *`` leaves out three modules: `libph.sklearn`
+and `libph.torch`, which need scikit-learn and torch, and `libph.compat`, which offers the
+interfaces of other packages.
 """
-import typing as _typing
-
 try:
     from ._core import version as __version__
 except ModuleNotFoundError as _error:
@@ -38,65 +37,57 @@ except ModuleNotFoundError as _error:
                       f"{_sys.version_info[0]}.{_sys.version_info[1]}; `pip install .` in the root "
                       "of the repository builds it", name=_error.name) from None
 
-from . import gradients
-from ._barcodes import Bar, Barcode, Chain, Loop
-from ._batch import batch
-from ._compute import alpha, boundary, cubical, filtered, lower_star, rips
-from ._distances import (Barycentre, Matching, barycentre, bottleneck, bottleneck_matching,
-                         diagram_distances, sliced_wasserstein, wasserstein, wasserstein_matching)
-from ._errors import (Cancelled, DataError, Error, InternalError, MemoryLimitError,
-                      MissingInputError, NotBuiltIn, OutputError, Timeout, UsageError)
-from ._estimate import Estimate, estimate
-from ._files import Boundary, Mesh, Simplices, read, read_barcode
-from ._parts import CloudPart, ImageLoops, ImagePart, cloud_part, image_part, join_parts
-from ._points import (Subsample, collapse, delay_embedding, distance_to_measure, farthest_points,
-                      point_image)
-from ._report import Report, report
-from ._requests import PointImage
-from ._run import limits
-from ._scenes import (LabelTracker, Objects, SceneSurface, Segment, Segmentation, Tracked, Voxels,
-                      segment)
-from ._significance import (Band, PermutationTest, confidence_band, confidence_radius, p_values,
-                            permutation_test)
-from ._surfaces import Surface, alpha_shape
-from ._trees import MergeTree, merge_tree
-from ._vectors import PiecewiseLinear, StepFunction
-from ._vectors._euler import euler_curve
-from ._vectors._kernels import diagram_kernels
+from . import _imports
 
-__all__ = [
-    "Band", "Bar", "Barcode", "Barycentre", "Boundary", "Cancelled", "Chain", "CloudPart",
-    "DataError", "Error", "Estimate", "ImageLoops", "ImagePart", "InternalError", "LabelTracker",
-    "Loop", "Matching", "MemoryLimitError", "MergeTree", "Mesh", "MissingInputError", "NotBuiltIn",
-    "Objects", "OutputError", "PermutationTest", "PiecewiseLinear", "PointImage", "Report",
-    "SceneSurface", "Segment", "Segmentation", "Simplices", "StepFunction", "Subsample", "Surface",
-    "Timeout", "Tracked", "UsageError", "Voxels", "__version__",
-    "alpha", "alpha_shape", "barycentre", "batch",
-    "bottleneck", "bottleneck_matching", "boundary", "cloud_part", "collapse", "confidence_band",
-    "confidence_radius", "cubical", "delay_embedding", "diagram_distances", "diagram_kernels",
-    "distance_to_measure",
-    "estimate", "euler_curve", "farthest_points", "filtered", "gradients", "image_part",
-    "join_parts", "limits", "lower_star",
-    "merge_tree", "p_values", "permutation_test", "point_image", "read", "read_barcode", "report",
-    "rips", "segment", "sliced_wasserstein", "wasserstein", "wasserstein_matching",
-]
+# The public names of each module. A module is imported when one of its names is first used, because
+# most programs use few of them. `__init__.pyi` states the same names for type checkers.
+_NAMES = {
+    "_barcodes": "Bar Barcode Chain Loop",
+    "_batch": "batch",
+    "_compute": "alpha boundary cubical filtered lower_star rips",
+    "_distances": "Barycentre Matching barycentre bottleneck bottleneck_matching "
+                  "diagram_distances sliced_wasserstein wasserstein wasserstein_matching",
+    "_errors": "Cancelled DataError Error InternalError MemoryLimitError MissingInputError "
+               "NotBuiltIn OutputError Timeout UsageError",
+    "_estimate": "Estimate estimate",
+    "_files": "Boundary Mesh Simplices read read_barcode",
+    "_parts": "CloudPart ImageLoops ImagePart cloud_part image_part join_parts",
+    "_points": "Subsample collapse delay_embedding distance_to_measure farthest_points point_image",
+    "_report": "Report report",
+    "_requests": "PointImage",
+    "_run": "limits",
+    "_scenes": "LabelTracker Objects SceneSurface Segment Segmentation Tracked Voxels segment",
+    "_significance": "Band PermutationTest confidence_band confidence_radius p_values "
+                     "permutation_test",
+    "_surfaces": "Surface alpha_shape",
+    "_trees": "MergeTree merge_tree",
+    "_vectors": "PiecewiseLinear StepFunction",
+    "_vectors._euler": "euler_curve",
+    "_vectors._kernels": "diagram_kernels",
+}
+_MODULES = {name: module for module, names in _NAMES.items() for name in names.split()}
+_PACKAGES = ("compat", "gradients", "sklearn", "torch")
+__all__ = sorted([*_MODULES, "__version__", "gradients"])
 
-if not _typing.TYPE_CHECKING:  # hidden from type checkers, which then report missing names
 
-    def __getattr__(name):
-        if name in ("compat", "sklearn", "torch"):
-            import importlib
-            try:
-                return importlib.import_module(f"{__name__}.{name}")
-            except ModuleNotFoundError as error:
-                package = (error.name or "").partition(".")[0]
-                if package == __name__:
-                    raise
-                raise AttributeError(f"libph.{name} needs {package}, which is not installed"
-                                     ) from None
+def __getattr__(name):
+    if name in _MODULES:
+        globals()[name] = found = getattr(_imports.load(f"{__name__}.{_MODULES[name]}"), name)
+        return found
+    if name in _PACKAGES:
+        try:
+            return _imports.load(f"{__name__}.{name}")
+        except ModuleNotFoundError as error:
+            package = (error.name or "").partition(".")[0]
+            if package == __name__:
+                raise
+            raise AttributeError(f"libph.{name} needs {package}, which is not installed") from None
+    hint = ""
+    if not name.startswith("_"):  # such names are modules that are not imported yet
         from . import _hints
-        raise AttributeError(f"libph has no {name!r}" + _hints.of_name(
-            name, _hints.MODULE, __all__))
+        hint = _hints.of_name(name, _hints.MODULE, __all__)
+    raise AttributeError(f"libph has no {name!r}{hint}")
 
-    def __dir__():
-        return sorted({*globals(), "compat", "sklearn", "torch"})
+
+def __dir__():
+    return sorted({*globals(), *__all__, *_PACKAGES})

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Tests the package as a whole: its exports and its wheels."""
+import ast
 import os
 import re
 import shutil
@@ -27,6 +28,21 @@ def test_names():
     optional = {"compat", "sklearn", "torch"}
     assert {name for name in vars(ph) if not name.startswith("_")} <= set(ph.__all__) | optional
     assert (Path(ph.__file__).parent / "py.typed").exists()
+
+
+def test_types_and_places_of_names():
+    """Type checkers and Python find the same names in the same modules, and `dir` lists them before
+    their modules are imported."""
+    stub = ast.parse((SOURCE / "python/libph/__init__.pyi").read_text())
+    found = {alias.asname or alias.name: f"libph.{node.module}" if node.module else "libph"
+             for node in stub.body if isinstance(node, ast.ImportFrom) for alias in node.names}
+    (stated,) = [node for node in stub.body if isinstance(node, ast.Assign)]
+    assert ast.literal_eval(stated.value) == ph.__all__ == sorted(found)
+    places = {name: f"libph.{place}" for name, place in ph._MODULES.items()}
+    assert found == {**places, "__version__": "libph._core", "gradients": "libph"}
+    code = "import libph; print(*(name for name in dir(libph) if not name.startswith('_')))"
+    listed = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True).stdout
+    assert set(listed.split()) == {*ph.__all__, "compat", "sklearn", "torch"} - {"__version__"}
 
 
 def test_sources_that_are_not_compiled(tmp_path):

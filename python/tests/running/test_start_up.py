@@ -1,14 +1,53 @@
 # SPDX-License-Identifier: MIT
-"""Calls import nothing, and a process may fork at any time."""
+"""libph starts quickly, calls import nothing, and a process may fork at any time."""
 import importlib.util
 import inspect
 import os
+import resource
+import subprocess
+import sys
 import textwrap
 
 import pytest
 
 import libph as ph
 from workloads import run_python
+
+ONE_CALL = "import numpy as np, libph as ph; ph.rips(np.arange(20.0).reshape(10, 2)**2)"
+
+
+def cpu_seconds(code):
+    """The CPU time of a process that runs this code."""
+    def used():
+        usage = resource.getrusage(resource.RUSAGE_CHILDREN)
+        return usage.ru_utime + usage.ru_stime
+
+    start = used()
+    subprocess.run([sys.executable, "-c", code], check=True)
+    return used() - start
+
+
+def test_a_process_with_one_call_imports_little():
+    code = textwrap.dedent("""
+        import sys, numpy
+        before = set(sys.modules)
+        CALL
+        new = set(sys.modules) - before
+        ours = {name for name in new if name.startswith("libph")}
+        print(len(ours), len(new - ours), *sorted(new - ours))
+    """).replace("CALL", ONE_CALL)
+    ours, others, *names = run_python(code).stdout.split()
+    assert int(ours) <= 25 and int(others) <= 25, names
+    assert not {name.partition(".")[0] for name in names} & {
+        "difflib", "joblib", "matplotlib", "pandas", "scipy", "sklearn", "torch", "tqdm"}
+
+
+def test_a_process_with_one_call_costs_little_more_than_numpy():
+    """The factor is 1.3. The least of several times is steady on a busy machine as well."""
+    alone, with_call = zip(*[(cpu_seconds("import numpy"), cpu_seconds(ONE_CALL))
+                             for _ in range(9)])
+    assert min(with_call) < 1.6 * min(alone)
+
 
 # ---- calls
 
@@ -164,3 +203,13 @@ def test_forks_while_a_thread_calls(progress):
                 {call}
     """
     assert hung(call, thread, 200, "sys.modules['tqdm'] = None") == "0\n"
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="this system cannot fork")
+def test_forks_while_a_thread_loads():
+    thread = """
+        def work():
+            for name in ph.__all__:
+                getattr(ph, name)
+    """
+    assert hung("[getattr(ph, name) for name in ph.__all__]", thread, 20) == "0\n"
