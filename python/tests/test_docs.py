@@ -27,6 +27,25 @@ PUBLIC = [getattr(ph, name) for name in ph.__all__ if callable(getattr(ph, name)
 FUNCTIONS = [f for f in PUBLIC if inspect.isfunction(f)]
 
 
+def is_scalar_of_numpy(value):
+    """True for a scalar of NumPy, or a tuple, list or dictionary that has one."""
+    if isinstance(value, dict):
+        value = [*value, *value.values()]
+    return isinstance(value, np.generic) or (
+        isinstance(value, (list, tuple)) and any(map(is_scalar_of_numpy, value)))
+
+
+@pytest.fixture(autouse=True)
+def examples_print_no_scalar_of_numpy(monkeypatch):
+    """NumPy 1 prints 2.0 where NumPy 2 prints np.float64(2.0). Examples must not depend on it."""
+    def show(value):
+        assert not is_scalar_of_numpy(value), f"{value!r} is a scalar of NumPy; int or float helps"
+        shown(value)
+
+    shown = sys.__displayhook__
+    monkeypatch.setattr(sys, "__displayhook__", show)
+
+
 @pytest.mark.parametrize("name", MODULES)
 def test_docstrings(name):
     try:

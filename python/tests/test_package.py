@@ -10,6 +10,7 @@ import tarfile
 import zipfile
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import libph as ph
@@ -118,11 +119,13 @@ def environment(tmp_path_factory):
     if not build:
         pytest.skip("PH_BUILD_DIR names no build folder")
     folder = tmp_path_factory.mktemp("venv")
-    made = subprocess.run([sys.executable, "-m", "venv", "--system-site-packages", folder],
-                          capture_output=True, text=True)
+    made = subprocess.run([sys.executable, "-m", "venv", folder], capture_output=True, text=True)
     if made.returncode != 0:
         pytest.skip(f"no virtual environment: {made.stdout}")
     python = folder / "bin/python"
+    # The new environment sees the packages of these tests, which may be in an environment as well.
+    (packages,) = folder.glob("lib/python*/site-packages")
+    (packages / "tests.pth").write_text(str(Path(np.__file__).parents[1]))
     settings = {**os.environ, "PIP_NO_INDEX": "1", "PIP_DISABLE_PIP_VERSION_CHECK": "1"}
     settings.pop("PYTHONPATH", None)
     done = subprocess.run([python, "-m", "pip", "install", "--config-settings",
@@ -141,8 +144,9 @@ def run_in(environment, *arguments):
 
 
 def test_pip_install_without_a_network(environment):
-    code = "import libph; print(libph.__file__, len(libph.rips([[0], [1]])))"
-    path, bars = run_in(environment, "-c", code).split()
+    code = "import libph, numpy; print(libph.__file__, len(libph.rips([[0], [1]])), numpy.__file__)"
+    path, bars, numpy = run_in(environment, "-c", code).split()
+    assert numpy == np.__file__
     assert bars == "2" and Path(path).is_relative_to(environment[0].parents[1])
     shown = run_in(environment, "-m", "pip", "show", "-f", "libph")
     assert f"Version: {ph.__version__}" in shown and "libph/py.typed" in shown

@@ -124,8 +124,8 @@ def segment(cloud: Any, *, method: str | None = None, supervoxels: float | None 
     >>> found = ph.segment(depth, intrinsics=(260, 260, 159.5, 119.5))
     >>> found
     Segmentation(240 x 320 points, method surface: 2 objects)
-    >>> found.labels[90, 90], found.labels[140, 220], found.labels[0, 0]
-    (2, 1, 0)
+    >>> found.labels[[90, 140, 0], [90, 220, 0]].tolist()
+    [2, 1, 0]
     """
     given = dict(locals())
     _run.check_names("segment", given["run"], segment)

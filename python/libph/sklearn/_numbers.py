@@ -30,7 +30,7 @@ class Statistics(Vectoriser):
     --------
     >>> statistics = ph.sklearn.Statistics().fit([[[0, 1], [1, 4]]])
     >>> row, = statistics.transform([[[0, 1], [1, 4]]])
-    >>> dict(zip(statistics.get_feature_names_out(), row))["dgm0_length_mean"]
+    >>> dict(zip(statistics.get_feature_names_out(), row.tolist()))["dgm0_length_mean"]
     2.0
     """
 
