@@ -10,6 +10,7 @@ from . import _arrays, _core, _options
 from ._compute import alpha, cubical, rips
 from ._requests import PointImage, Request, alpha_request, cubical_request, rips_request
 from ._options import arguments_of
+from ._results import in_units, spaced
 
 
 class Estimate(NamedTuple):
@@ -48,6 +49,14 @@ class Estimate(NamedTuple):
     collapses: bool
     collapse_reason: str
     max_dim: int
+
+    def __repr__(self) -> str:
+        cells = ", ".join(f"{'' if dim < self.counted_dims else 'about '}{spaced(round(count))} of "
+                          f"dimension {dim}" for dim, count in enumerate(self.cells))
+        return (f"Estimate({in_units(self.bytes_low)} to {in_units(self.bytes_high)}; engine "
+                f"{self.engine}, up to H{self.max_dim}"
+                + (f"; cells: {cells}" if cells else "")
+                + ("; edges are collapsed" if self.collapses else "") + ")")
 
 
 def request_of(data: Any, complex: Any, options: dict[str, Any]) -> Request:
@@ -93,8 +102,12 @@ def estimate(data: Any, *, complex: str | None = None, **options: Any) -> Estima
 
     Examples
     --------
-    >>> ph.estimate([[0, 0], [1, 0], [1, 1], [0, 1]], max_dim=1).engine
+    >>> found = ph.estimate([[0, 0], [1, 0], [1, 1], [0, 1]], max_dim=1)
+    >>> found.engine
     'edge-links'
+    >>> found
+    Estimate(... bytes to ... MiB; engine edge-links, up to H1;
+    cells: 4 of dimension 0, 6 of dimension 1)
     """
     found = request_of(data, complex, options).run(_core.estimate)
     return Estimate(found.bytes_low, found.bytes_high, tuple(found.cells), found.counted_dims,

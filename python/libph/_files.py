@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
-from . import _core, _errors, _options, _run
+from . import _core, _errors, _options, _results, _run
 from ._barcodes import Barcode
 
 if TYPE_CHECKING:
@@ -29,6 +29,9 @@ class Simplices(NamedTuple):
     simplices: list[tuple[int, ...]]
     values: NDArray[np.float64]
 
+    def __repr__(self) -> str:
+        return _results.in_brief(self)
+
 
 class Boundary(NamedTuple):
     """A boundary matrix from a file: for ``boundary(*matrix)``."""
@@ -37,6 +40,9 @@ class Boundary(NamedTuple):
     dims: NDArray[np.int64]
     values: NDArray[np.float64] | None
 
+    def __repr__(self) -> str:
+        return _results.in_brief(self)
+
 
 class Mesh(NamedTuple):
     """A mesh from a file: ``lower_star(mesh.values, mesh.triangles)``, if it has values."""
@@ -44,6 +50,9 @@ class Mesh(NamedTuple):
     vertices: NDArray[np.float64]
     triangles: NDArray[np.int64]
     values: NDArray[np.float64] | None
+
+    def __repr__(self) -> str:
+        return _results.in_brief(self)
 
 
 def read(path: str | os.PathLike[str], format: str | None = None, *,

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import _arrays, _core, _options, _run
+from . import _arrays, _core, _options, _results, _run
 from ._compute import rips
 from ._errors import DataError, UsageError
 from ._requests import PointImage, rips_request
@@ -36,6 +36,9 @@ class Subsample(NamedTuple):
     indices: NDArray[np.int64]
     radii: NDArray[np.float64]
     covering_radius: float
+
+    def __repr__(self) -> str:
+        return _results.in_brief(self)
 
 
 def point_image(X: ArrayLike, voxel: float, *, value: str = "distance", margin: int = 1,

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from . import _arrays, _core, _options, _run
+from . import _arrays, _core, _options, _results, _run
 from ._errors import (Cancelled, DataError, Error, MemoryLimitError, NotBuiltIn, UsageError,
                       reworded)
 from ._simplices import joined_values, simplex_list
@@ -39,6 +39,9 @@ class PointImage(NamedTuple):
     image: NDArray[np.float64]
     first: NDArray[np.float64]
     voxel: float
+
+    def __repr__(self) -> str:
+        return _results.in_brief(self)
 
 
 class Request(NamedTuple):

@@ -2,13 +2,16 @@
 """The common base of results: they state their origin, and they can be pickled."""
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
 import numpy as np
 
 from . import _core
 from ._errors import UsageError
+
+
+_FEW = 12  # numbers that a description lists
 
 
 class Meta(Mapping[str, Any]):
@@ -54,6 +57,26 @@ def require_version(found: int, expected: int) -> None:
                          "another version of libph")
 
 
+def in_brief(result: Any) -> str:
+    """A named tuple or a dataclass on one line. Arrays and lists of more than 12 elements are given
+    by their shape.
+
+    >>> in_brief(ph.farthest_points([[x] for x in range(20)]))
+    'Subsample(indices=<20 int64>, radii=<20 float64>, covering_radius=0.0)'
+    """
+    fields: Iterable[str] = getattr(result, "_fields", None) or vars(result)
+    return (f"{type(result).__name__}("
+            + ", ".join(f"{name}={_value_in_brief(getattr(result, name))}" for name in fields) + ")")
+
+
+def _value_in_brief(value: Any) -> str:
+    if isinstance(value, list) and len(value) > _FEW:
+        return f"<list of {spaced(len(value))}>"
+    if isinstance(value, np.ndarray) and value.size > _FEW:
+        return f"<{' x '.join(map(str, value.shape))} {value.dtype}>"
+    return " ".join(repr(value).split())
+
+
 def description_of(meta: Any) -> str:
     """A description of the data: "20 points in R^2". Empty if unknown."""
     if "shape" in meta:
@@ -81,6 +104,21 @@ def origin_of(meta: Any) -> dict[str, Any]:
     """The origin of a barcode as files state it."""
     known = {"input_description": description_of(meta), "vertex_weights": vertex_weights_of(meta)}
     return {**known, **meta, "program": f"libph {_core.version}"}
+
+
+def in_units(size: float) -> str:
+    """A size in bytes with a unit.
+
+    >>> in_units(1023), in_units(4.5 * 2**20)
+    ('1023 bytes', '4.5 MiB')
+    """
+    for unit in ("bytes", "KiB", "MiB", "GiB"):
+        if size < 1024:
+            break
+        size /= 1024
+    else:
+        unit = "TiB"
+    return f"{size:.4g} {unit}"
 
 
 def spaced(number: int) -> str:

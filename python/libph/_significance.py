@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import _arrays, _core, _options, _run
+from . import _arrays, _core, _options, _results, _run
 from ._barcodes import Barcode
 from ._errors import DataError, UsageError
 from ._vectors import as_diagram
@@ -140,6 +140,9 @@ class Band(NamedTuple):
     mean: NDArray[np.float64]
     lower: NDArray[np.float64]
     upper: NDArray[np.float64]
+
+    def __repr__(self) -> str:
+        return _results.in_brief(self)
 
     def plot(self, ax: Axes | None = None, *, grid: ArrayLike | None = None, layer: int = 0,
              **options: Any) -> Axes:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import _arrays, _core, _options, _run
+from . import _arrays, _core, _options, _results, _run
 from ._errors import DataError, UsageError
 from ._requests import alpha_recipe
 from ._sources import source_of
@@ -36,6 +36,9 @@ class Surface(NamedTuple):
     vertices: NDArray[np.float64]
     triangles: NDArray[np.int64]
     singular: NDArray[np.bool_]
+
+    def __repr__(self) -> str:
+        return _results.in_brief(self)
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Writes the surface and its points as a PLY or OFF file.

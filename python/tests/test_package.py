@@ -46,6 +46,29 @@ def test_types_and_places_of_names():
     assert set(listed.split()) == {*ph.__all__, "compat", "sklearn", "torch"} - {"__version__"}
 
 
+def test_results_print_one_line():
+    """Arrays of results are given by their shape, however large they are."""
+    X = np.random.default_rng(0).random((60, 3))
+    bars = ph.rips(X, representatives="cycles")
+    results = [
+        ph.estimate(X), ph.estimate(X, max_dim=4), ph.estimate(X[:9, :, None]),
+        ph.farthest_points(X), ph.point_image(X, 0.05), ph.bottleneck_matching(bars, bars, 0),
+        ph.barycentre([bars, bars], 0), ph.confidence_band(X.T),
+        ph.Surface(X, np.zeros((9, 3), dtype=int), np.zeros(9, dtype=bool)),
+        ph.Mesh(X, np.zeros((9, 3), dtype=int), None), ph.Simplices([(0,)] * 99, np.zeros(99)),
+        ph.Boundary(None, np.zeros(99, dtype=int), None),
+        bars.representative(bars.longest(1)).loops()[0]]
+    for result in results:
+        printed = str(result)
+        assert printed.startswith(type(result).__name__ + "(") and printed == repr(result)
+        assert "\n" not in printed and len(printed) < 200
+    assert str(results[3]) == (
+        "Subsample(indices=<60 int64>, radii=<60 float64>, covering_radius=0.0)")
+    assert re.fullmatch(r"Estimate\([\d.]+ KiB to [\d.]+ MiB; engine edge-links, up to H1; "
+                        r"cells: 60 of dimension 0, [\d ]+ of dimension 1\)", str(results[0]))
+    assert "; edges are collapsed)" in str(results[1]) and "cells:" not in str(results[2])
+
+
 def test_sources_that_are_not_compiled(tmp_path):
     shutil.copytree(SOURCE / "python/libph", tmp_path / "libph",
                     ignore=shutil.ignore_patterns("*.so", "__pycache__"))

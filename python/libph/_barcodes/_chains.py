@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from .. import _core, _options
 from .._errors import UsageError
-from .._results import require_version, with_arrays
+from .._results import in_brief, require_version, with_arrays
 
 _STATE_VERSION = 1
 
@@ -30,6 +30,9 @@ class Loop(NamedTuple):
     vertices: NDArray[np.int64]
     coefficient: int
     length: float | None
+
+    def __repr__(self) -> str:
+        return in_brief(self)
 
 
 class Chain:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .. import _core, _options, _run
+from .. import _core, _options, _results, _run
 from .._barcodes import Barcode
 from ._diagrams import all_rows
 
@@ -37,6 +37,9 @@ class Barycentre(NamedTuple):
     root_mean_square: float
     rounds: int
     converged: bool
+
+    def __repr__(self) -> str:
+        return _results.in_brief(self)
 
 
 def barycentre(diagrams: Iterable[Barcode | ArrayLike], dim: int | None = None, *,

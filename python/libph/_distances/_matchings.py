@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .. import _core, _run
+from .. import _core, _results, _run
 from .._barcodes import Barcode
 from ._diagrams import two_diagrams
 from ._metric import metric_of
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from .._run import RunOptions
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Matching:
     """A matching between two diagrams; see `bottleneck_matching`, `wasserstein_matching`.
 
@@ -52,6 +52,9 @@ class Matching:
     ground: float
     a: NDArray[np.float64]
     b: NDArray[np.float64]
+
+    def __repr__(self) -> str:
+        return _results.in_brief(self)
 
     def plot(self, ax: Axes | None = None, **style: Any) -> Axes:
         """Draws both diagrams, and a line for each pair, with matplotlib.

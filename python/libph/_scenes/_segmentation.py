@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from .. import _core, _options, _run
 from .._barcodes import Barcode
-from .._results import Meta, require_version, with_arrays
+from .._results import Meta, in_brief, require_version, with_arrays
 from .._errors import UsageError
 from .._report import Report, require_page
 from .._trees import MergeTree
@@ -53,6 +53,9 @@ class Voxels(NamedTuple):
     points: NDArray[np.int64]
     labels: NDArray[np.uint32]
     of_point: NDArray[np.int64]
+
+    def __repr__(self) -> str:
+        return in_brief(self)
 
 
 class Segmentation:
