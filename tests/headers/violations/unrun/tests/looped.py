@@ -1,0 +1,3 @@
+# SPDX-License-Identifier: MIT
+"""Imports helper.py, but only mentions forgotten.py."""
+import helper  # noqa: F401
