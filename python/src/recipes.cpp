@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -167,7 +168,10 @@ std::unique_ptr<Recipe> lower_star_of(const py::buffer& vertices, const py::buff
   // The values of the simplices are ignored, because they follow from the values of the vertices.
   list.values.resize(list.size());
   std::vector<double> values = vector_of<double>(vertex_values);
-  const std::size_t cells = values.size() + 4 * list.vertices.size();
+  // A simplex of k vertices has fewer than 2^k faces.
+  std::size_t cells = values.size();
+  for (std::size_t i = 0; i < list.size(); ++i)
+    cells += std::size_t{1} << std::min<std::size_t>(list.offsets[i + 1] - list.offsets[i], 32);
   return std::make_unique<ListedRecipe>(
       [list = std::move(list), values = std::move(values)](const RunContext& context) {
         return lower_star(list, values, {}, context);

@@ -153,6 +153,13 @@ def test_options_of_a_short_call_cost_little(options):
     assert watched < 1.8 * plain
 
 
+def test_one_simplex_with_many_faces_is_no_short_call():
+    start = time.monotonic()
+    with pytest.raises(ph.Timeout):
+        ph.lower_star(range(24), [list(range(24))], timeout=0.4)
+    assert time.monotonic() - start < 0.4 + SOON
+
+
 def test_ctrl_c_reaches_the_main_thread_only():
     """Other threads stop only when their own `stop` is set."""
     stop, outcome = threading.Event(), []
