@@ -30,7 +30,7 @@ namespace {
 
 /// These lengths are in voxels. A neighbourhood is large enough to show how the surface bends, and
 /// small enough not to reach across a thin object.
-constexpr double kNeighbourhood = 3, kOfNormals = 2.4, kSquareOfBase = 0.6;
+constexpr double kNeighbourhood = 3, kOfNormals = 2.4;
 // A little more than sqrt(3), so that voxels whose corners touch are adjacent.
 constexpr double kAdjacent = 1.79;
 
@@ -176,11 +176,11 @@ VoxelFiltration surface_filtration(const Scene& scene, const SegmentOptions& opt
     points = scene.points.beyond;
     grid = voxel_grid(scene.cloud, points, voxel);
     if (scene.plane) {
-      assign_base_points(scene.cloud, scene.points.strip, *scene.plane, scene.margin,
-                         kSquareOfBase * voxel, points, grid);
+      assign_base_points(scene.cloud, scene.points.strip, *scene.plane, scene.margin, voxel / 2,
+                         points, grid);
       for (const OtherSupport& other : scene.others)
-        assign_base_points(scene.cloud, other.strip, other.plane, other.margin,
-                           kSquareOfBase * voxel, points, grid);
+        assign_base_points(scene.cloud, other.strip, other.plane, other.margin, voxel / 2, points,
+                           grid);
     }
     clock.finish("voxel grid", grid.centroids.rows());
     pairs = near_voxels(grid, voxel, context);

@@ -9,14 +9,9 @@ namespace ph::segment {
 
 namespace {
 
-/// The least edge of a cell for which the raster does not have far more cells than there are
-/// voxels. Without this limit, a few objects that are far apart would need a huge raster that is
-/// nearly empty.
-double least_cell(const Eigen::Array2d& size, std::size_t voxels) {
-  constexpr double cells_a_voxel = 16, fewest = 1 << 18, most_a_side = 2048;
-  const double cells = std::max(fewest, cells_a_voxel * static_cast<double>(voxels));
-  return std::max(size.maxCoeff() / most_a_side, std::sqrt(size.prod() / cells));
-}
+/// The largest number of rows and of columns. Without this limit, a few objects that are far apart
+/// would need a huge raster that is nearly empty.
+constexpr double kMostASide = 1024;
 
 }  // namespace
 
@@ -53,7 +48,7 @@ View::View(const Points& centroids, double voxel, const Vec3& viewpoint)
     high = high.max(directions[v].array());
   }
   if (!(low <= high).all()) return;
-  cell = std::max(cell, least_cell(high - low, ranges_.size()));
+  cell = std::max(cell, (high - low).maxCoeff() / kMostASide);
   // The viewpoint is so far away that all voxels are in one direction.
   if (!(cell > 0)) return;
   width_ = static_cast<std::size_t>((high - low)[0] / cell) + 1;

@@ -22,6 +22,8 @@ constexpr int kRefits = 4;
 constexpr double kOfSearch = 2;
 // A share of the largest spread. Points that spread less across it lie on a line.
 constexpr double kLeastSpread = 1e-9;
+// Points behind a plane by more than so many margins belong to another surface.
+constexpr double kFarBehind = 6;
 
 struct Candidate {
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
@@ -44,13 +46,12 @@ Candidate facing(const Candidate& plane, const Eigen::Vector3d& viewpoint) {
 /// stops. @param plane its normal points towards the sensor.
 double cost_of(const Candidate& plane, const Sample& sample, std::size_t count, double margins,
                double enough) {
-  constexpr double just_behind = -6;  // in the same units
   double cost = 0;
   constexpr std::size_t block = 128;
   for (std::size_t begin = 0; begin < count && cost < enough; begin += block) {
     for (std::size_t i = begin; i < std::min(count, begin + block); ++i) {
       const double r = plane.signed_distance(sample, i) / (margins * sample.limits[i]);
-      cost += std::min(r * r, 1.0) + (r < -1 && r > just_behind ? 1.0 : 0.0);
+      cost += std::min(r * r, 1.0) + (r < -1 && r > -kFarBehind ? 1.0 : 0.0);
     }
   }
   return cost;
@@ -157,23 +158,20 @@ std::optional<Candidate> as_good_as_before(const std::optional<Plane>& guess,
                                                                    : std::nullopt;
 }
 
-/// Computes PlaneSearch::noise and PlaneSearch::noise_along. Points more than some margins behind
-/// the plane belong to another surface.
+/// Computes PlaneSearch::noise and PlaneSearch::noise_along.
 void measure_noise(const Candidate& plane, const Sample& sample, const Eigen::Vector3d& viewpoint,
                    PlaneSearch& search) {
-  constexpr double margins = 6;
-  constexpr std::size_t fewest = 30;
   constexpr double median_of_half_normal = 0.6745;  // in standard deviations
   const double height = plane.normal.dot(viewpoint) + plane.offset;
   std::vector<double> across, along;
   for (std::size_t i = 0; i < sample.size(); ++i) {
     const double depth = -plane.signed_distance(sample, i);
-    if (!(depth > 0 && depth < margins * sample.limits[i])) continue;
+    if (!(depth > 0 && depth < kFarBehind * sample.limits[i])) continue;
     const double range = (sample[i] - viewpoint).norm();
     across.push_back(depth / (range * range));
     along.push_back(depth / (range * height));
   }
-  if (across.size() < fewest) return;
+  if (across.empty()) return;
   search.noise = median(std::move(across)) / median_of_half_normal;
   search.noise_along = median(std::move(along)) / median_of_half_normal;
 }
@@ -238,7 +236,7 @@ Cleared remove_plane(const CloudView& cloud, const std::vector<Index>& points, c
       cleared.beyond.push_back(i);
     } else if (height >= -limit) {
       cleared.on.push_back(i);
-      if (is_in_strip(height, limit)) cleared.strip.push_back(i);
+      if (height > 0) cleared.strip.push_back(i);
     }
   }
   return cleared;

@@ -95,16 +95,8 @@ struct Cleared {
   std::vector<Index> beyond;  ///< on the sensor's side of the plane and beyond the margin
   /// Within the margin, on both sides; these points count as part of the plane.
   std::vector<Index> on;
-  /// The points of `on` on the sensor's side, without those in the lowest fifth of the margin,
-  /// which look like the plane itself.
-  std::vector<Index> strip;
+  std::vector<Index> strip;  ///< the points of `on` on the sensor's side
 };
-
-/// True if a point on a plane belongs to Cleared::strip.
-inline bool is_in_strip(double height, double margin) {
-  constexpr double lowest_share = 0.2;  // of the margin, is left out of the strip
-  return height > lowest_share * margin;
-}
 
 /// Removes the points on the plane or behind it (such as the floor beyond a table's edge, or
 /// reflections), because they stand on nothing. All lists are in the order of `points`.

@@ -21,18 +21,16 @@ Extent extent_of(const PlaneSearch& search, const Sample& sample, double side = 
 }
 
 /// Adds the largest planes of some points, without faces of objects. @param rest a sample of points
-/// that are on none of the planes so far. @param share the share of these points among all points.
+/// that are on none of the planes so far.
 void add_planes(Sample rest, double share, const Vec3& viewpoint,
                 std::vector<PlaneSearch>& planes) {
-  constexpr int most_times = 8;
-  constexpr double least_share = 0.01;
   const auto all = static_cast<double>(rest.size()) / share;
+  constexpr int most_times = 8;
   Sample things = rest;
   for (int times = 1; times < most_times; ++times) {
     PlaneSearch next = find_plane(rest, viewpoint);
     if (!next.plane) break;
     next.plane->share *= static_cast<double>(rest.size()) / all;
-    if (next.plane->share < least_share) break;
     rest = points_off(*next.plane, kMarginsOfPlane, rest);
     // A wall beside a table is not the table's other side.
     const Extent extent = extent_of(next, things);  // mutant: support-beside

@@ -37,36 +37,29 @@ Board board_of(const CloudView& cloud, const std::vector<Index>& points, const P
 }
 
 bool is_lowest(const Plane& plane, const CloudView& cloud) {
-  constexpr PlaneMargin below{0.05};  // deeper points are below the plane
-  return share_behind(cloud, plane, below) <= kMostBehind;
+  return share_behind(cloud, plane, {kThickestBoard}) <= kMostBehind;
 }
 
 std::vector<Board> find_boards(const CloudView& cloud, const std::vector<Index>& points,
                                const Sample& sample, const Plane& support,
                                const PlaneMargin& margin, std::size_t most) {
   constexpr int most_times = 8;
-  constexpr double least_share_of_floor = 0.02;
-  constexpr std::size_t fewest = 50;   // points of the sample
   constexpr double least_step = 0.12;  // metres between parallel boards
   std::vector<double> offsets{support.offset};
   std::vector<Board> boards;
   Sample rest = points_off(support, kMarginsOfPlane, sample);
   rest.set_limits(SlantedMargin(margin, support, cloud.viewpoint));
-  for (int times = 0; times < most_times && boards.size() < most && rest.size() >= fewest;
-       ++times) {
+  for (int times = 0; times < most_times && boards.size() < most; ++times) {
     const PlaneSearch search = find_parallel(support, rest, cloud.viewpoint);
     if (!search.plane) break;
     const Plane& plane = *search.plane;
-    const double share =
-        plane.share * static_cast<double>(rest.size()) / static_cast<double>(sample.size());
     const double area = area_of_hull(plane, rest);
     rest = points_off(plane, kMarginsOfPlane, rest);
     const bool is_near = std::ranges::any_of(
         offsets, [&](double offset) { return std::abs(plane.offset - offset) <= least_step; });
     if (is_near || cosine_between(plane, support) < kLeastOfParallel) continue;
     // Of a floor, little may be seen beside the support.
-    const bool is_floor =
-        plane.offset > support.offset && share >= least_share_of_floor && is_lowest(plane, cloud);
+    const bool is_floor = plane.offset > support.offset && is_lowest(plane, cloud);
     // All points of a small plane need not be looked at.
     if (!is_floor && area < kLeastTable / 2) continue;
     const double height =
@@ -94,7 +87,7 @@ Cleared remove_board(const CloudView& cloud, const std::vector<Index>& points, c
       cleared.beyond.push_back(i);
     } else {
       cleared.on.push_back(i);
-      if (is_in_strip(height, limit)) cleared.strip.push_back(i);
+      if (height > 0) cleared.strip.push_back(i);
     }
   }
   return cleared;

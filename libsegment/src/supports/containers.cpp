@@ -3,9 +3,9 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <map>
 #include <numeric>
 #include <optional>
+#include <set>
 #include <span>
 #include <utility>
 
@@ -60,16 +60,14 @@ class Containers {
           turn * as_matrix(scene.vertices).row(static_cast<Index>(v)).transpose());
     }
     for (std::size_t k = 0; k < things_.size(); ++k) measure(things_[k], places[k]);
-    constexpr Index fewest_pairs = 10;  // pairs of voxels that are near each other
-    std::map<std::pair<std::uint32_t, std::uint32_t>, Index> contacts;
+    std::set<std::pair<std::uint32_t, std::uint32_t>> contacts;
     for (const VoxelPair& pair : surface.pairs) {
       const std::uint32_t a = objects.of[pair.u], b = objects.of[pair.v];
-      if (a != b && a != Parts::kSmall && b != Parts::kSmall) ++contacts[std::minmax(a, b)];
+      if (a != b && a != Parts::kSmall && b != Parts::kSmall) contacts.insert(std::minmax(a, b));
     }
-    for (const auto& [both, count] : contacts) {
-      if (count < fewest_pairs) continue;
-      touching_[both.first].push_back(both.second);
-      touching_[both.second].push_back(both.first);
+    for (const auto& [a, b] : contacts) {
+      touching_[a].push_back(b);
+      touching_[b].push_back(a);
     }
     for (std::size_t k = 0; k < things_.size(); ++k) by_x_.push_back(k);
     std::ranges::sort(by_x_, {}, [&](std::size_t k) { return things_[k].middle.x(); });

@@ -51,7 +51,6 @@ double flatness(double square_of_range) {
 
 std::optional<Plane> plane_through(const Points& centroids, const Points& normals,
                                    std::span<const Index> voxels, const Vec3& viewpoint) {
-  constexpr int refits = 3;
   const Eigen::Vector3d eye(viewpoint.data());
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
   for (const Index v : voxels)
@@ -62,12 +61,9 @@ std::optional<Plane> plane_through(const Points& centroids, const Points& normal
   for (const Index v : voxels) offsets.push_back(-normal.dot(row(centroids, v)));
   const auto middle = offsets.begin() + static_cast<std::ptrdiff_t>(offsets.size() / 2);
   std::ranges::nth_element(offsets, middle);
-  Candidate plane{normal, *middle};
-  for (int i = 0; i < refits; ++i) {
-    const auto better = refit(plane, centroids, voxels, eye);
-    if (!better) return std::nullopt;
-    plane = *better;
-  }
+  const auto fitted = refit({normal, *middle}, centroids, voxels, eye);
+  if (!fitted) return std::nullopt;
+  Candidate plane = *fitted;
   if (plane.distance(eye) < 0) plane = {-plane.normal, -plane.offset};
   Plane found{{plane.normal.x(), plane.normal.y(), plane.normal.z()}, plane.offset, 0};
   found.share = share_on(found, centroids, voxels, viewpoint);

@@ -2,6 +2,7 @@
 #include "libsegment/src/vessels/circle.hpp"
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -30,6 +31,12 @@ double deviation(const Circle& circle, const std::vector<Eigen::Vector2d>& point
   for (const Eigen::Vector2d& point : points)
     squares += std::pow((point - circle.centre).norm() - circle.radius, 2);
   return std::sqrt(squares / static_cast<double>(points.size()));
+}
+
+bool is_on(const Circle& circle, const std::vector<Eigen::Vector2d>& points, double voxel) {
+  constexpr double of_voxel = 1.6, of_radius = 0.1;
+  // The comparison is false for a circle through points on a line, which is NaN.
+  return deviation(circle, points) <= std::min(of_voxel * voxel, of_radius * circle.radius);
 }
 
 Sectors sectors_of(const Circle& circle, const std::vector<Eigen::Vector2d>& points) {

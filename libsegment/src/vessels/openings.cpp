@@ -20,28 +20,18 @@ struct Opening {
   std::uint32_t voxel;  ///< the voxel that receives its points
 };
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
-}
-
-/// Fits a circle to the points, and removes outliers from `points`.
-Circle fit_without_outliers(std::vector<Eigen::Vector2d>& points, double voxel) {
-  constexpr int times = 3;  // mutant: opening-handles
-  constexpr double medians = 2;
-  Circle circle{};
-  for (int i = 0; i < times; ++i) {
-    circle = fit_circle({&points});
-    std::vector<double> distances;
-    for (const Eigen::Vector2d& p : points)
-      distances.push_back(std::abs((p - circle.centre).norm() - circle.radius));
-    const double most = std::max(medians * median(distances), voxel);
-    std::size_t next = 0;
-    std::erase_if(points, [&](const Eigen::Vector2d&) { return !(distances[next++] < most); });
-    if (points.empty()) break;
-  }
-  return circle;
+/// Erases the points that are far from the circle through all points, such as those of a handle.
+void erase_outliers(std::vector<Eigen::Vector2d>& points, double voxel) {
+  const Circle circle = fit_circle({&points});
+  std::vector<double> distances;
+  for (const Eigen::Vector2d& p : points)
+    distances.push_back(std::abs((p - circle.centre).norm() - circle.radius));
+  std::vector<double> sorted = distances;
+  const auto median = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+  std::ranges::nth_element(sorted, median);
+  const double most = std::max(2 * *median, voxel);  // mutant: opening-handles
+  std::size_t next = 0;
+  std::erase_if(points, [&](const Eigen::Vector2d&) { return distances[next++] > most; });
 }
 
 /// The opening of an object. Empty if the upper end of the object is not a round rim.
@@ -49,26 +39,12 @@ Circle fit_without_outliers(std::vector<Eigen::Vector2d>& points, double voxel) 
 /// numbers the numbers of these voxels in the grid.
 std::optional<Opening> opening_of(const std::vector<Eigen::Vector3d>& object,
                                   const std::vector<std::uint32_t>& numbers, double voxel) {
-  constexpr std::size_t fewest = 20;  // the fewest voxels of a rim
-  constexpr double depth = 3;         // in voxels
-  // The limits for the deviation of a rim from its circle.
-  constexpr double of_voxel = 1.6, of_radius = 0.12;
-  constexpr double least_radius = 0.02, most_radius = 0.25;
   // mutant: opening-sectors
-  constexpr std::size_t fewest_sectors = 20;             // out of 36 sectors
-  constexpr double middle = 0.6, most_in_middle = 0.03;  // mutant: opening-middle
-  const auto [top, upper] = upper_end_of(object, depth * voxel);
-  if (upper.size() < fewest) return std::nullopt;
-  std::vector<Eigen::Vector2d> rim = upper;
-  const Circle circle = fit_without_outliers(rim, voxel);
-  if (rim.empty() || !(circle.radius >= least_radius && circle.radius <= most_radius) ||
-      deviation(circle, rim) > std::min(of_voxel * voxel, of_radius * circle.radius) ||
-      sectors_of(circle, rim).count() < fewest_sectors)
-    return std::nullopt;
-  const auto inside = std::ranges::count_if(upper, [&](const Eigen::Vector2d& p) {
-    return (p - circle.centre).norm() < middle * circle.radius;
-  });
-  if (static_cast<double>(inside) > most_in_middle * static_cast<double>(upper.size()))
+  constexpr std::size_t fewest_sectors = 20;  // out of 36 sectors
+  auto [top, rim] = upper_end_of(object, kDepthOfRim * voxel);
+  for (int times = 0; times < 2; ++times) erase_outliers(rim, voxel);
+  const Circle circle = fit_circle({&rim});
+  if (!is_on(circle, rim, voxel) || sectors_of(circle, rim).count() < fewest_sectors)
     return std::nullopt;
   std::size_t lowest = 0;
   const auto cost = [&](std::size_t k) {
@@ -93,9 +69,6 @@ void assign_points_in_openings(const CloudView& cloud, const std::vector<Index>&
                                const Plane& plane, double voxel,
                                const std::vector<Index>& object_of, Index min_size,
                                std::vector<Index>& points, VoxelGrid& grid) {
-  // This is a share of the radius. It is slightly less than 1, because the points of a rim are
-  // blurred.
-  constexpr double of_opening = 0.97;
   const Eigen::Matrix3d turn = upright(plane.normal);
   const auto above = [&](const Eigen::Vector3d& p) -> Eigen::Vector3d {
     return turn * p + Eigen::Vector3d(0, 0, plane.offset);
@@ -136,7 +109,7 @@ void assign_points_in_openings(const CloudView& cloud, const std::vector<Index>&
       // This checks that the ray enters through the opening and does not leave through a gap in the
       // wall.
       // mutant: opening-gaps
-      if (from_axis(opening.height) >= of_opening * opening.circle.radius ||
+      if (from_axis(opening.height) >= opening.circle.radius ||
           from_axis(std::max(p.z(), 0.0)) >= opening.circle.radius ||
           !may_be_in_opening(plane, {q[0], q[1], q[2]}, place_of(opening.voxel)))
         continue;

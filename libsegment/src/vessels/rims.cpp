@@ -4,7 +4,6 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <vector>
 
 #include "libsegment/src/scene/close_boxes.hpp"
@@ -17,23 +16,18 @@ namespace {
 
 constexpr std::size_t kFewestOfEach = 7;  // sectors
 
-/// The sectors of the circle in which a rim has points. Empty if the rim is not on the circle.
-std::optional<Sectors> arc(const Circle& circle, const UpperEnd& rim, double tolerance) {
-  // The comparison is not written as "larger than", because a circle through points on a line is
-  // NaN.
-  if (!(deviation(circle, rim.points) <= tolerance)) return std::nullopt;
-  return sectors_of(circle, rim.points);
+/// The sectors of the circle in which a rim has points. None if the rim is not on the circle.
+Sectors arc(const Circle& circle, const UpperEnd& rim, double voxel) {
+  return is_on(circle, rim.points, voxel) ? sectors_of(circle, rim.points) : Sectors();
 }
 
 bool share_a_rim(const UpperEnd& a, const UpperEnd& b, double voxel) {
-  constexpr double height = 2, of_voxel = 1.6, of_radius = 0.1;
   constexpr std::size_t all = kSectors / 2, of_both = 2;  // mutant: rim-half
-  if (std::abs(a.top - b.top) > height * voxel) return false;
+  if (std::abs(a.top - b.top) > 2 * voxel) return false;
   const Circle circle = fit_circle({&a.points, &b.points});
-  const double tolerance = std::min(of_voxel * voxel, of_radius * circle.radius);
-  const auto p = arc(circle, a, tolerance), q = arc(circle, b, tolerance);
-  return p && q && p->count() >= kFewestOfEach && q->count() >= kFewestOfEach &&
-         (*p & *q).count() <= of_both && (*p | *q).count() >= all;
+  const Sectors p = arc(circle, a, voxel), q = arc(circle, b, voxel);
+  return p.count() >= kFewestOfEach && q.count() >= kFewestOfEach && (p & q).count() <= of_both &&
+         (p | q).count() >= all;
 }
 
 }  // namespace
@@ -41,7 +35,6 @@ bool share_a_rim(const UpperEnd& a, const UpperEnd& b, double voxel) {
 void join_around_rims(const Points& centroids, double voxel, const Vec3& up, const Parts& parts,
                       const std::function<void(std::uint32_t, std::uint32_t)>& join,
                       const RunContext& context) {
-  constexpr double depth = 2.4;  // voxels
   const Eigen::Matrix3d turn = upright(up);
   std::vector<std::vector<Eigen::Vector3d>> points(parts.count());
   for (std::size_t v = 0; v < parts.of.size(); ++v)
@@ -51,7 +44,7 @@ void join_around_rims(const Points& centroids, double voxel, const Vec3& up, con
   std::vector<UpperEnd> rims;
   std::vector<PartBox<2>> boxes;
   for (std::uint32_t p = 0; p < points.size(); ++p) {
-    rims.push_back(upper_end_of(points[p], depth * voxel));
+    rims.push_back(upper_end_of(points[p], kDepthOfRim * voxel));
     // With fewer points, too many sectors are empty.
     if (rims[p].points.size() < kFewestOfEach) continue;
     boxes.push_back({p, {}});
