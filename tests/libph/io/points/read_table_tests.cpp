@@ -341,6 +341,46 @@ TEST(ReadTable, LettersOfOtherFormatsMayBeNames) {
     EXPECT_TRUE(contains(bad_data([&] { any(bytes); }), name)) << name;
 }
 
+TEST(ReadTable, FilesOfOtherProgramsAreNamedWithAWayOut) {
+  const std::string zeros(300, '\0');
+  const std::string ptx = "2\n1\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n";
+  struct Case {
+    std::string bytes;
+    const char *name, *way;
+  };
+  const std::vector<Case> cases{
+      {zeros.substr(0, 128) + "DICM\2\0", "DICOM", "NIfTI"},
+      {zeros.substr(0, 208) + "MAP DA" + zeros, "MRC", "NIfTI"},
+      {"NRRD0004\ntype: float\ndimension: 3\n", "NRRD", "NIfTI"},
+      {"ObjectType = Image\nNDims = 3\n", "MetaImage", "NIfTI"},
+      {"NDims=3\r\nDimSize=2 2 2\r\n", "MetaImage", "NIfTI"},
+      {"SIMPLE  =                    T / conforms\n", "FITS", ".npy"},
+      {"PF\n2 1\n-1.0\n" + zeros, "PFM", ".npy"},
+      {"Pf\n2 1\n-1.0\n" + zeros, "PFM", ".npy"},
+      {"\x89MCAP0\r\n" + zeros, "MCAP", "PCD"},
+      {"#ROSBAG V2.0\n" + zeros, "ROS bag", "PCD"},
+      {std::string("SQLite format 3\0", 16) + zeros, "ROS 2 bag", "PCD"},
+      {std::string("glTF\2\0\0\0", 8), "GLB", "PLY"},
+      {std::string("\x80\4\x95\x10\0\0", 6), "pickle", "numpy.save"},
+      {std::string("\x80\3cnumpy\n"), "pickle", "numpy.save"},
+      {ptx + "0.5 1 2 0.25\n0.5 1 3 0.25\n", "PTX", "PLY"},
+      {ptx + "0.5 1 2 0.25 9 9 9\n", "PTX", "PLY"},
+      {"<?xml version=\"1.0\"?>\n<!DOCTYPE GIFTI>\n<GIFTI Version=\"1.0\">\n", "GIFTI", "PLY"},
+      {"<VTKFile type=\"ImageData\" version=\"1.0\">\n", "VTK", ".npy"},
+      {"<?xml version=\"1.0\"?>\n<data/>\n", "XML", "text"},
+  };
+  for (const auto& [bytes, name, way] : cases) {
+    const std::string message = bad_data([&] { any(bytes); });
+    EXPECT_TRUE(contains(message, name)) << name << ": " << message;
+    EXPECT_TRUE(contains(message, way)) << name << ": " << message;
+  }
+  // Tables that only begin like one of these files are read.
+  for (const char* text : {"glTF,b\n1,2\n3,4\n", "PF\n1\n2\n3\n", "NDims,b\n1,2\n3,4\n",
+                           "NRRD,b\n1,2\n3,4\n", "SIMPLE,b\n1,2\n3,4\n"})
+    EXPECT_GE(std::get<Points>(any(text).data).rows(), 2) << text;
+  EXPECT_FALSE(contains(bad_data([&] { any(ptx); }), "PTX")) << "no points";
+}
+
 TEST(ReadTable, HintsSayWhatHelps) {
   const auto message = [](const std::string& text, const ReadOptions& options = {}) {
     return bad_data([&] { any(text, options); });
