@@ -57,8 +57,9 @@ void add_input_options(app::Options& options, Arguments& a) {
       });
   CLI::Option* camera = options.path(
       {"--camera", kOfDepth}, fmt::format("FILE|{}", fmt::join(names_of_presets(), "|")),
-      "the camera of the depth image: a camera_info YAML of ROS, with its lens, an intrinsic JSON "
-      "of Open3D, or the nominal values of a model",
+      "the camera of the depth image: a camera_info YAML of ROS, with its lens; a YAML of OpenCV; "
+      "a JSON of Open3D, RealSense or BOP; the nine numbers of a camera matrix; or the nominal "
+      "values of a model",
       a.image.calibration);
   camera->excludes(intrinsics);
   options.value({"--depth-scale", kOfDepth}, "S",

@@ -102,8 +102,8 @@ def segment(cloud: Any, *, method: str | None = None, supervoxels: float | None 
     intrinsics : array_like, optional
         For a depth image: fx, fy, cx, cy in pixels, or the matrix of the camera (3, 3).
     camera : str or path, optional
-        Instead of `intrinsics`: a calibration file (camera_info of ROS, OpenCV, Open3D), or the
-        name of a camera, such as "realsense-d435".
+        Instead of `intrinsics`: a calibration file (camera_info of ROS, OpenCV, Open3D, RealSense,
+        BOP, or the nine numbers of a matrix), or the name of a camera, such as "realsense-d435".
     depth_scale : float, optional
         Number of units of a depth image per metre.
     **run

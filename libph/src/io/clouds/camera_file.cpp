@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "libph/src/io/bytes/yaml_words.hpp"
+#include "libph/src/io/clouds/camera_file.hpp"
 #include "ph/detail/core/floating.hpp"
 #include "ph/detail/io/camera.hpp"
-#include "ph/detail/io/json_cursor.hpp"
 #include "ph/detail/io/table.hpp"
 #include "ph/error.hpp"
 
@@ -20,9 +20,13 @@ namespace {
 
 using detail::YamlWords;
 
-constexpr Index kMostPixels = 1 << 20;  // the largest number of pixels along one axis
-constexpr std::string_view kWhatItIs =
-    "a camera_info YAML file from ROS has image_width, image_height and camera_matrix";
+using detail::kMostPixels;
+
+/// Advice on a file that is not a camera.
+std::string what_it_is() {
+  return "a camera_info YAML file from ROS has image_width, image_height and camera_matrix; " +
+         detail::way_to_intrinsics();
+}
 
 /// The data of a calibration while its file is read.
 class CameraYaml {
@@ -63,10 +67,8 @@ class CameraYaml {
   const YamlWords::Value& require(Names names) const {
     const YamlWords::Value* value = find(names);
     if (value == nullptr) {
-      yaml_.input().fail({fmt::format("no {}", *names.begin()),
-                          {},
-                          "a camera's calibration",
-                          std::string(kWhatItIs)});
+      yaml_.input().fail(
+          {fmt::format("no {}", *names.begin()), {}, "a camera's calibration", what_it_is()});
     }
     return *value;
   }
@@ -108,17 +110,8 @@ class CameraYaml {
     if (k.size() != 9) {
       fail(value, {"camera matrix", fmt::format("{} numbers", k.size()), "9, row by row", {}});
     }
-    if (!(k[0] > 0 && k[4] > 0)) {
-      fail(value, {"focal lengths", fmt::format("{} and {}", k[0], k[4]), "numbers above 0",
-                   "a camera that is not calibrated has 0"});
-    }
-    if (k[1] != 0 || k[3] != 0 || k[6] != 0 || k[7] != 0 || k[8] != 1) {
-      fail(value, {"camera matrix",
-                   fmt::format("{}", fmt::join(k, ", ")),
-                   "fx, 0, cx, 0, fy, cy, 0, 0, 1",
-                   {}});
-    }
-    return {k[0], k[4], k[2], k[5]};
+    return detail::intrinsics_of(std::span<const double, 9>(k),
+                                 [&](const Fault& fault) { fail(value, fault); });
   }
 
   static bool is_known(std::string_view model) {
@@ -212,69 +205,6 @@ class CameraYaml {
   YamlWords yaml_;
 };
 
-/// Reads the members of an Open3D object after its '{'. @param inside true for the members of the
-/// nested object "intrinsic".
-void read_members(detail::JsonCursor& json, Camera& camera, bool& has_matrix, bool inside = false) {
-  bool first = true;
-  for (std::string name; json.next_member(first, name);) {
-    if (name == "width" || name == "height") {
-      (name == "width" ? camera.width : camera.height) = json.integer(1, kMostPixels, name.c_str());
-    } else if (name == "intrinsic_matrix") {
-      json.peek();
-      const std::size_t place = json.place();
-      if (has_matrix) json.fail(place, {"intrinsic_matrix", "a second one", "one", {}});
-      std::vector<double> k;
-      json.expect('[');
-      for (bool first_number = true; json.next_element(first_number);) k.push_back(json.number());
-      if (k.size() != 9 || !(k[0] > 0) || !(k[4] > 0) || k[1] != 0 || k[2] != 0 || k[3] != 0 ||
-          k[5] != 0 || k[8] != 1) {
-        json.fail(place, {"intrinsic_matrix",
-                          fmt::format("[{}]", fmt::join(k, ", ")),
-                          "[fx, 0, 0, 0, fy, 0, cx, cy, 1], column by column",
-                          {}});
-      }
-      camera.intrinsics = {k[0], k[4], k[6], k[7]};
-      has_matrix = true;
-    } else if (name == "depth_scale" && json.peek() != 'n') {  // null means that there is no scale
-      const std::size_t place = json.place();
-      const double found = json.number();
-      // A number below 1 must be in metres per unit, as in librealsense. The reason is that no unit
-      // is longer than a metre, so the number of units per metre is at least 1.
-      camera.depth_scale = found < 1 ? 1 / found : found;
-      if (!(camera.depth_scale >= 1 && std::isfinite(camera.depth_scale)))
-        json.fail(place, {"depth_scale",
-                          fmt::format("{}", found),
-                          "units per metre, at least 1, or metres per unit, above 0 and below 1",
-                          {}});
-    } else if (name == "intrinsic" && !inside) {
-      json.expect('{');
-      read_members(json, camera, has_matrix, true);
-    } else {
-      json.skip_value();
-    }
-  }
-}
-
-Camera read_json(const Input& input) {
-  detail::JsonCursor json(input);
-  Camera camera;
-  bool has_matrix = false;
-  json.expect('{');
-  read_members(json, camera, has_matrix);
-  json.expect_end();
-  if (!has_matrix || camera.width == 0 || camera.height == 0) {
-    std::vector<std::string_view> missing;
-    if (!has_matrix) missing.emplace_back("no intrinsic_matrix");
-    if (camera.width == 0) missing.emplace_back("no width");
-    if (camera.height == 0) missing.emplace_back("no height");
-    input.fail({"not an Open3D camera",
-                fmt::format("{}", fmt::join(missing, " and ")),
-                "intrinsic_matrix, width and height",
-                {}});
-  }
-  return camera;
-}
-
 }  // namespace
 
 Camera read_camera(const Input& input) {
@@ -282,10 +212,14 @@ Camera read_camera(const Input& input) {
   constexpr std::size_t most = 1 << 20;
   if (text.size() > most) {
     input.fail({"not a camera", fmt::format("{} bytes", text.size()),
-                fmt::format("at most {}", most), std::string(kWhatItIs)});
+                fmt::format("at most {}", most), what_it_is()});
   }
   const std::size_t first = text.find_first_not_of(" \t\r\n");
-  if (first != text.npos && text[first] == '{') return read_json(input);
+  if (first != text.npos && text[first] == '{') return detail::read_json_camera(input);
+  // A camera matrix begins with a focal length, which is positive.
+  if (first != text.npos && std::string_view("0123456789.+[").find(text[first]) != text.npos &&
+      text.find_first_not_of("0123456789+-.eE,;[] \t\r\n") == text.npos)
+    return detail::read_matrix_camera(input);
   return CameraYaml(input).camera();
 }
 

@@ -168,6 +168,77 @@ TEST(Camera, FaultsNameTheirPlace) {
   }
 }
 
+TEST(CameraFiles, ReadsFilesOfOtherPrograms) {
+  const struct {
+    const char* text;
+    double fx, cx;
+    Index width;
+    double scale;
+  } cases[] = {
+      {R"({"fx": 525.5, "fy": 525, "ppx": 319.5, "ppy": 239.5, "height": 480, "width": 640,
+           "depth_scale": 0.001, "model": "distortion.inverse_brown_conrady",
+           "coeffs": [0.0, 0.0, 0.0, 0.0, 0.0]})",
+       525.5, 319.5, 640, 1000},
+      {R"({"cx": 312.75, "cy": 241.25, "depth_scale": 0.1, "fx": 1066.75, "fy": 1067.5,
+           "height": 480, "width": 640})",
+       1066.75, 312.75, 640, 10000},
+      {R"({"fx": 600, "fy": 600, "cx": 320, "cy": 240, "depth_scale": 5000})", 600, 320, 0, 5000},
+      {R"({"0": {"cam_K": [572.5, 0.0, 325.25, 0.0, 573.5, 242, 0.0, 0.0, 1.0],
+                 "depth_scale": 1.0, "cam_R_w2c": [1, 0, 0]},
+           "1": {"cam_K": [572.5, 0, 325.25, 0, 573.5, 242, 0, 0, 1], "depth_scale": 1.0}})",
+       572.5, 325.25, 0, 1000},
+      {"525.5 0 319.5\n0 525 239.5\n0 0 1\n", 525.5, 319.5, 0, 0},
+      {"[[525.5, 0., 319.5],\n [0., 525., 239.5],\n [0., 0., 1.]]\n", 525.5, 319.5, 0, 0},
+      {"525.5 0 319.5 0\n0 525 239.5 0\n0 0 1 0\n0 0 0 1\n", 525.5, 319.5, 0, 0},
+  };
+  for (const auto& [text, fx, cx, width, scale] : cases) {
+    const Camera c = camera_of(text);
+    EXPECT_EQ(c.intrinsics.fx, fx) << text;
+    EXPECT_EQ(c.intrinsics.cx, cx) << text;
+    EXPECT_EQ(c.width, width) << text;
+    EXPECT_DOUBLE_EQ(c.depth_scale, scale) << text;
+    EXPECT_EQ(c.lens.model, Lens::Model::none) << text;
+  }
+  const Camera bent = camera_of(
+      R"({"fx": 9, "fy": 9, "ppx": 4, "ppy": 4, "model": "Brown Conrady",
+          "coeffs": [0.5, 0.25, 0.125, 0.0625, 2]})");
+  EXPECT_EQ(bent.lens.model, Lens::Model::polynomial);
+  EXPECT_EQ(bent.lens.coefficients[4], 2);
+}
+
+TEST(CameraFiles, RefusalsNameTheIntrinsics) {
+  const std::vector<std::pair<const char*, const char*>> faults{
+      {R"({"fx": 9, "fy": 9, "ppx": 4})", "not a camera, found no ppy"},
+      {R"({"fx": 9, "fx": 8})", "c.yaml:1:17: fx, found a second one"},
+      {R"({"fx": 9, "fy": 0, "cx": 4, "cy": 4})", "focal lengths, found 9 and 0"},
+      {R"({"fx": 9, "fy": 9, "cx": 4, "cy": 4, "width": 8})", "found no height"},
+      {R"({"0": {"cam_K": [1, 0, 3, 0, 1, 3, 0, 0]}})", "cam_K, found [1, 0, 3"},
+      {R"({"0": {"cam_K": [1, 0, 3, 0, 1, 3, 0, 0, 1]}, "7": {"cam_K": [2, 0, 3, 0, 1, 3, 0, 0, 1]}})",
+       "several cameras, found pictures 0 and 7"},
+      {"525 0 319.5 0 525 239.5 0 0", "camera matrix, found 8 numbers, expected 9"},
+      {"525 0 319.5\n0 525 239.5\n0 1 1\n", "c.yaml:1:1: camera matrix, found 525, 0"},
+      {"1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17", "more than 16 numbers"},
+      {"1 0 3 0 0 1 3 0 0 0 1 0 0 0 0 2", "camera matrix of 4 x 4"},
+      {"{\"a\": 1}", "not an Open3D camera"},
+      {"a: 1\n", "no image_width"},
+  };
+  for (const auto& [text, message] : faults) {
+    const std::string found = bad_data([&, t = text] { camera_of(t); });
+    EXPECT_TRUE(contains(found, message)) << found;
+    const bool is_misprint = contains(message, "second") || contains(message, "height");
+    EXPECT_EQ(contains(found, "intrinsics FX,FY,CX,CY"), !is_misprint) << found;
+  }
+  for (const char* text : {R"({"fx": 9, "fy": 9, "cx": 4, "cy": 4, "depth_scale": 10})",
+                           R"({"fx": 9, "fy": 9, "cx": 4, "cy": 4, "depth_scale": 0})",
+                           R"({"fx": 9, "fy": 9, "ppx": 4, "ppy": 4, "depth_scale": -1})"})
+    EXPECT_TRUE(contains(bad_data([&] { camera_of(text); }), "depth_scale, found")) << text;
+  EXPECT_TRUE(contains(bad_data([] {
+                         camera_of(R"({"fx": 9, "fy": 9, "ppx": 4, "ppy": 4,
+                           "model": "distortion.inverse_brown_conrady", "coeffs": [0.1, 0, 0, 0, 0]})");
+                       }),
+                       "lens model, found 5 coefficients of \"distortion.inverse_brown_conrady\""));
+}
+
 /// The lens models as defined in the original papers and in OpenCV's documentation.
 std::array<double, 2> by_the_book(const Lens& lens, double x, double y) {
   const auto& c = lens.coefficients;
