@@ -51,6 +51,8 @@ def tera():
                                                   b"face 1000000000000"), "count of face")
     yield refused(31, "off", "vertices", OFF.format(TERA, 0), "truncated: the counts do not fit")
     yield refused(31, "off", "faces", OFF.format(1, TERA), "truncated: the counts do not fit")
+    yield refused(31, "off", "vertices after the word", f"OFF{TERA} 0 0\n0 0 0\n",
+                  "truncated: the counts do not fit")
     yield refused(31, "off", "corners", f"OFF\n1 1 0\n0 0 0\n{TERA} 0\n", "number of corners")
     yield refused(31, "pts", "points", f"{TERA}\n0 0 1\n", "number of points out of range")
     yield refused(31, "npy", "values", shape("(1000000000000,)"), "truncated, found 8 bytes")

@@ -290,6 +290,20 @@ TEST(ReadOff, ReadsMeshes) {
                        "too few vertices, found 1, expected 2, the number in the header"));
 }
 
+TEST(ReadOff, TheCountMayFollowTheWordAtOnce) {
+  for (const std::string start : {"OFF2 0 0\n", "COFF2 0\n", "OFF2\t0 0\r\n"}) {
+    const std::string text = start + "0.5 1 2\n3 4 5\n";
+    const ReadResult read = read_any(Input::view(text, "m.txt"), Format::automatic);
+    EXPECT_EQ(read.format, Format::off) << start;
+    EXPECT_EQ(std::get<Mesh>(read.data).vertices, (Points{{0.5, 1, 2}, {3, 4, 5}})) << start;
+  }
+  EXPECT_EQ(read_any(Input::view("OFF1,OFF2\n1,2\n3,4\n", "t.csv"), Format::automatic).format,
+            Format::points);
+  EXPECT_TRUE(
+      contains(bad_data([] { read_off(Input::view("OFF3 0 0\n0.125 0.125 0.125\n", "m.off")); }),
+               "too few vertices, found 1, expected 3"));
+}
+
 TEST(ReadAny, DetectsFormats) {
   const std::vector<std::tuple<std::string, std::string, Format>> cases{
       {"p.txt", "1 2 3\n4 5 6\n", Format::points},

@@ -18,7 +18,24 @@ constexpr std::int64_t kMost = std::int64_t{1} << 40;
 /// coordinates (ST), colours (C) and a normal (N), which are ignored.
 constexpr std::array<std::string_view, 9> kWords{"OFF",   "COFF",   "NOFF",   "CNOFF",  "NCOFF",
                                                  "STOFF", "STCOFF", "STNOFF", "STCNOFF"};
-constexpr std::size_t kLongest = 7;
+constexpr std::size_t kProbe = 64;  // the bytes that decide
+
+// The keyword at the start of a text, or nothing. The files of ModelNet have the number of vertices
+// immediately after the keyword: "OFF30 0 0".
+std::string_view keyword(std::string_view text) {
+  const std::size_t end = std::min(text.find_first_of(" \t\r\n0123456789"), text.size());
+  const std::string_view word = text.substr(0, end);
+  if (std::ranges::find(kWords, word) == kWords.end()) return {};
+  const std::string_view rest = text.substr(end);
+  const std::size_t blank = rest.find_first_not_of("0123456789");
+  const bool has_count = blank != 0 && !rest.empty();
+  if (!has_count) return word;
+  // Two numbers must follow, because "OFF1" may be the name of a column.
+  const std::size_t next = rest.find_first_not_of(" \t", std::min(blank, rest.size()));
+  const bool has_faces = blank != std::string_view::npos && next != std::string_view::npos &&
+                         next > blank && rest[next] >= '0' && rest[next] <= '9';
+  return has_faces ? word : std::string_view();
+}
 
 // Goes to the line of the next vertex or face, which must exist.
 void need_line(TextLines& lines, const char* what, std::size_t have, std::size_t all) {
@@ -41,24 +58,22 @@ void need_cell(const TextLines& lines, const Cells& cells, const char* expected)
 
 namespace detail {
 
-bool is_off(const Input& input) {
-  const std::string_view text = input.text().substr(0, kLongest + 1);
-  const std::size_t end = std::min(text.find_first_of(" \t\r\n"), text.size());
-  return std::ranges::find(kWords, text.substr(0, end)) != kWords.end();
-}
+bool is_off(const Input& input) { return !keyword(input.text().substr(0, kProbe)).empty(); }
 
 }  // namespace detail
 
 Mesh read_off(const Input& input, const ReadOptions& options) {
   TextLines lines(input);
   Cells cells(lines);
-  if (!lines.next() || (cells.start(), std::ranges::find(kWords, cells.word()) == kWords.end())) {
+  const std::string_view word = lines.next() ? keyword(lines.line()) : std::string_view();
+  if (word.empty()) {
     input.fail_at(1, 1,
                   {"not an OFF file",
                    "a different first word",
                    alternatives(fmt::format("{}", fmt::join(kWords, "|"))),
                    {}});
   }
+  cells.start_in(lines.line().substr(word.size()));
   if (!cells.more()) {
     if (!lines.next())
       input.fail({"truncated: the counts are missing",
