@@ -99,6 +99,9 @@ BoundaryInput read_dipha_boundary(const Input& input, const ReadOptions& options
 /// is an error unless options.allow_empty is set.
 Image without_nan_pixels(Image image, const Input& input, const ReadOptions& options);
 
+/// Renames fields X, Y and Z to x, y and z, unless the cloud has such fields.
+void name_coordinates(Cloud& cloud);
+
 /// Converts the numbers of a cloud between little endian and this machine's byte order.
 void to_native(Cloud& cloud);
 

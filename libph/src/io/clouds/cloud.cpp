@@ -46,6 +46,13 @@ void for_each_coordinate(const Cloud& cloud, Put put) {
 
 namespace detail {
 
+void name_coordinates(Cloud& cloud) {
+  for (const auto& [capital, small] : {std::pair{"X", "x"}, {"Y", "y"}, {"Z", "z"}}) {
+    const auto named = std::ranges::find(cloud.fields, capital, &CloudField::name);
+    if (named != cloud.fields.end() && cloud.find(small) == nullptr) named->name = small;
+  }
+}
+
 void to_native(Cloud& cloud) {
   if constexpr (std::endian::native == std::endian::little) return;
   for (const CloudField& field : cloud.fields) {

@@ -214,6 +214,7 @@ Cloud read_pcd(const Input& input, const ReadOptions& options) {
       break;
   }
   if (header.data != PcdData::ascii) detail::to_native(header.cloud);
+  detail::name_coordinates(header.cloud);
   if (header.points == 0 && !options.allow_empty) {
     input.fail(
         {"no points", {}, "at least one", mark(Setting::allow_empty) + " accepts an empty cloud"});

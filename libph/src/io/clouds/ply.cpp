@@ -260,6 +260,7 @@ Cloud read_elements(const Input& input, const ReadOptions& options, Mesh* mesh) 
     }
   }
   body.expect_end();
+  detail::name_coordinates(cloud);
   if (vertex->count == 0 && !options.allow_empty) {
     input.fail({"no vertices",
                 {},

@@ -313,6 +313,20 @@ TEST(ReadNpyCloud, TakesPointsAndOrganisedPoints) {
     EXPECT_TRUE(contains(bad_data([&, b = content] { cloud(b); }), message)) << message;
 }
 
+TEST(ReadClouds, CapitalsNameCoordinates) {
+  const std::string pcd =
+      "VERSION 0.7\nFIELDS X Y Z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 1\nHEIGHT 1\n"
+      "POINTS 1\nDATA ascii\n1 2 3\n";
+  const std::string ply =
+      "ply\nformat ascii 1.0\nelement vertex 1\nproperty float X\nproperty float Y\n"
+      "property float Z\nend_header\n1 2 3\n";
+  for (const std::string& text : {pcd, ply}) {
+    EXPECT_EQ(std::get<Points>(read_any(Input::view(text, "c"), Format::automatic).data),
+              (Points{{1, 2, 3}}));
+    EXPECT_NE(read_cloud(Input::view(text, "c")).find("z"), nullptr);
+  }
+}
+
 TEST(ReadDepth, KnowsWhichUnitIsUsual) {
   const auto depth = [](const std::string& bytes, const std::string& name = "d.npy") {
     return read_depth(Input::view(bytes, name));
