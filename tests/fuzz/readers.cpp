@@ -48,6 +48,12 @@ Image raw(const Input& input, const ReadOptions& options) {
   return read_raw(input, {.extents = {2, 3}, .type = "i2", .skip = 4}, options);
 }
 
+/// Reads a mesh whose vertices at one position are joined.
+ReadResult welded(const Input& input, ReadOptions options) {
+  options.weld = true;
+  return read_any(input, Format::off, options);
+}
+
 Raster png(const Input& input, const ReadOptions&) { return read_png(input); }
 
 segment::SceneTree tree(const Input& input, const ReadOptions&) {
@@ -116,6 +122,7 @@ constexpr std::array kReaders{
     reader<Reads<BoundaryInput>(&read_phat)>("phat", ".phat"),
     reader<&values>("values", ".txt"),
     reader<Reads<Mesh>(&read_off)>("off", ".off"),
+    reader<&welded>("welded", ".off"),
     reader<Reads<Mesh>(&read_ply_mesh)>("ply_mesh", ".ply"),
     reader<&png>("png", ".png"),
     reader<&camera>("camera", ".yaml"),

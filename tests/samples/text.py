@@ -81,6 +81,8 @@ SAMPLES = [
     off("octahedron.off", OCTAHEDRON, sized=True),
     off("points.off", b"OFF 3 0 0\n0 0 0\n1 0 0\n0 1 0\n", sized=True),
     off("modelnet.off", b"OFF3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", sized=True),
+    Sample("split.off", "welded", b"OFF\n6 2 0\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n0 1 0\n1 0 0\n"
+           b"3 0 1 2\n3 3 4 5\n", True, ("{}", "--format", "off")),
     off("colours.off", b"OFF\n# two triangles\n3 2 0\n0 0 0 1 0 0\n1 0 0 1 0 0\n0 1 0 1 0 0\n"
         b"3 0 1 2 255 0 9\n3 2 1 0\n", sized=True),
 

@@ -45,6 +45,9 @@ constexpr app::Scope kOfDistances{kMatrix | kTriangle | kSomePairs,
                                   "distances (--format distance)"};
 constexpr app::Scope kOfAlpha{kAlpha, "points with --complex alpha"};
 constexpr app::Scope kOfRaw{kImage | kSomeLayers, "images"};
+constexpr app::Scope kOfRawPoints{kPoints | kVoxels | kOwn | kAlpha | kSomeBlocks, "points"};
+constexpr app::Scope kOfRawNumbers{kOfRaw.where | kOfRawPoints.where, "images and points"};
+constexpr app::Scope kOfMeshes{kMesh, "meshes with --values"};
 constexpr app::Scope kOfCubical{kCubical | kSomeLayers, "images"};
 constexpr app::Scope kOfVoxels{kVoxels, "points with --complex cubical"};
 constexpr app::Scope kOfOneBarcode{kComputed | kBarcode | kParts | kRanks | kCloudRanks,

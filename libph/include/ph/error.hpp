@@ -74,6 +74,7 @@ enum class Setting : std::uint8_t {
   values,
   viewpoint,
   voxel,
+  weld,
 };
 
 /// All settings except `none`, in the order of their names. The words of a name are separated by
@@ -125,6 +126,7 @@ inline constexpr std::array names_of<Setting>{
     Named{Setting::values, "values"},
     Named{Setting::viewpoint, "viewpoint"},
     Named{Setting::voxel, "voxel"},
+    Named{Setting::weld, "weld"},
 };
 
 /// A change that would avoid an error: a setting and its new value, such as (engine, "auto"). The

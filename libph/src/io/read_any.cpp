@@ -112,10 +112,54 @@ void check_part(const Input& input, Format format, const ReadOptions& options) {
     refuse(Setting::columns, "tables of numbers (text, NPY or NPZ)");
   if (options.channel != Channel::automatic && format != Format::png)
     refuse(Setting::channel, "PNG pictures");
+  if (options.weld && format != Format::off && format != Format::ply)
+    refuse(Setting::weld, "meshes (OFF or PLY)");
   if (format == Format::ply && !input.member().empty()) {
     input.fail({"a property of a mesh", printable(input.member(), 40), "the mesh itself",
                 mark(Setting::values, "FILE.ply:NAME") + " takes one"});
   }
+}
+
+// Reads the values of cells or vertices from a separate file, if there is one.
+void add_values(ReadResult& result, const std::filesystem::path& values_path,
+                const ReadOptions& options) {
+  if (values_path.empty()) return;
+  const auto values_for = [&](std::size_t count, std::string_view owner) {
+    return read_values(Input::open(values_path, options.context), count, options, owner);
+  };
+  if (auto* boundary = std::get_if<BoundaryInput>(&result.data)) {
+    boundary->matrix.values = values_for(boundary->matrix.size(), "cell");
+  } else if (auto* mesh = std::get_if<Mesh>(&result.data)) {
+    mesh->values = values_for(static_cast<std::size_t>(mesh->vertices.rows()), "vertex");
+  } else if (auto* simplices = std::get_if<SimplicesInput>(&result.data)) {
+    const auto& vertices = simplices->simplices.vertices;
+    const Index largest =
+        vertices.empty() ? -1 : *std::max_element(vertices.begin(), vertices.end());
+    simplices->vertex_values = values_for(static_cast<std::size_t>(largest + 1), "vertex");
+  } else {
+    throw Error(ErrorKind::usage,
+                fmt::format("{}: format {} takes no separate values", mark(Setting::values),
+                            format_info(result.format).name));
+  }
+}
+
+// Joins the vertices at one position if options.weld is set. Otherwise a note reports them.
+void join_vertices(Mesh& mesh, const Input& input, const ReadOptions& options, ReadResult& result) {
+  if (!options.weld) {
+    if (mesh.values.empty()) return;  // the vertices may be points, and the faces may not be used
+    if (const std::string text = detail::note_on_seams(mesh, input); !text.empty())
+      detail::note(options, text);
+    return;
+  }
+  const Index before = mesh.vertices.rows();
+  std::vector<Index> kept = detail::weld(mesh, input);
+  const Index joined = before - mesh.vertices.rows();
+  if (joined > 0) result.point_ids = std::move(kept);
+  detail::note(options,
+               joined > 0
+                   ? fmt::format("{} of {} vertices joined with another one at the same position",
+                                 joined, before)
+                   : mark(Setting::weld) + " does nothing: no two vertices have the same position");
 }
 
 }  // namespace
@@ -143,7 +187,6 @@ ReadResult read_any(const Input& input, Format format, const ReadOptions& option
   if (!goes_by_blocks(input, format, inner)) input.take_memory();
   ReadResult result = info.read(input, inner);
   result.format = format;
-  result.notes = std::move(notes);
   if (options.dropped != nullptr) *options.dropped = dropped;
   if (!dropped.empty()) {
     const auto* points = std::get_if<Points>(&result.data);
@@ -162,24 +205,14 @@ ReadResult read_any(const Input& input, Format format, const ReadOptions& option
     input.fail(
         {"no points", {}, "at least one", mark(Setting::allow_empty) + " accepts an empty set"});
   }
-  if (values_path.empty()) return result;
-
-  const auto values_for = [&](std::size_t count, std::string_view owner) {
-    return read_values(Input::open(values_path, options.context), count, options, owner);
-  };
-  if (auto* boundary = std::get_if<BoundaryInput>(&result.data)) {
-    boundary->matrix.values = values_for(boundary->matrix.size(), "cell");
-  } else if (auto* mesh = std::get_if<Mesh>(&result.data)) {
-    mesh->values = values_for(static_cast<std::size_t>(mesh->vertices.rows()), "vertex");
-  } else if (auto* simplices = std::get_if<SimplicesInput>(&result.data)) {
-    const auto& vertices = simplices->simplices.vertices;
-    const Index largest =
-        vertices.empty() ? -1 : *std::max_element(vertices.begin(), vertices.end());
-    simplices->vertex_values = values_for(static_cast<std::size_t>(largest + 1), "vertex");
-  } else {
-    throw Error(ErrorKind::usage, fmt::format("{}: format {} takes no separate values",
-                                              mark(Setting::values), info.name));
+  add_values(result, values_path, options);
+  if (auto* mesh = std::get_if<Mesh>(&result.data)) {
+    join_vertices(*mesh, input, inner, result);
+  } else if (options.weld) {
+    throw Error(ErrorKind::usage, fmt::format("{}: makes sense for meshes only, found {}",
+                                              mark(Setting::weld), result.description));
   }
+  result.notes = std::move(notes);
   return result;
 }
 

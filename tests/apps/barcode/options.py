@@ -147,6 +147,28 @@ class Options(ProgramTest):
                 (("volume.raw", "--raw-shape", "2,,3"), 64, "--raw-shape")):
             self.assertIn(what, self.expect(code, *arguments).stderr)
 
+    def test_meshes_with_seams(self):
+        # The two triangles of a square, each with its own vertices.
+        self.write("square.off", b"OFF\n6 2 0\n0 0 0\n1 0 0\n0 1 0\n0 1 0\n1 0 0\n1 1 0\n"
+                                 b"3 0 1 2\n3 5 3 4\n")
+        self.write("values.txt", b"0 1 2 2 1 3\n")
+        mesh = ("square.off", "--values", "values.txt")
+        split = self.expect(0, *mesh)
+        self.assertIn("2 positions have several vertices each", split.stderr)
+        self.assertIn("--weld joins them", split.stderr)
+        self.assertEqual(split.stdout.count("inf"), 2)
+        welded = self.expect(0, *mesh, "--weld")
+        self.assertIn("2 of 6 vertices joined", welded.stderr)
+        self.assertEqual(welded.stdout, "dim,birth,death\n0,0,inf\n")
+        # The vertices keep the numbers of the file.
+        self.write("values.txt", b"3 4 4 4 4 0\n")
+        cells = self.expect(0, *mesh, "--weld", "--representatives", "cycles", "--output-format", "json")
+        self.assertIn('"death_cell":{"vertices":[1,5]}', cells.stdout.replace(" ", ""))
+        self.write("values.txt", b"0 1 2 9 1 3\n")
+        self.assertIn("the values 2 of vertex 2 and 9 of vertex 3, expected equal values for --weld",
+                      self.expect(65, *mesh, "--weld").stderr)
+        self.assertIn("--weld", self.expect(64, "square.off", "--weld", "--quiet").stderr)
+
     def test_points_as_voxels(self):
         # Two empty voxels separate two groups of points.
         self.write("line.txt", "0.5\n0.7\n3.5\n3.6\n3.7\n")

@@ -43,8 +43,11 @@ def rows(Row):
                        "|found more than 13|for images only, found points"),
         "--channel": Row("--channel", "red", variant="colour", unfit="no channel"),
         "--raw-shape": Row("--raw-shape", "5,4", unfit="for shape|found raw"),
-        "--raw-type": Row("--raw-type", "int16", unfit="for shape|found raw"),
-        "--raw-skip": Row("--raw-skip", "2", unfit="for shape|found raw"),
+        "--raw-points": Row("--raw-points", "2", unfit="found raw|truncated point|NaN|infinite|too few values"
+                            "|takes no separate values|for images only"),
+        "--raw-type": Row("--raw-type", "int16", unfit="for shape|found raw|truncated point|double cannot hold|NaN"),
+        "--raw-skip": Row("--raw-skip", "2", unfit="for shape|found raw|truncated point"),
+        "--weld": Row("--weld", variant="split", sign="joined with another one"),
         "--complex": Row("--complex", "cubical", unfit=IMAGE, alike=("alpha", "delaunay-cech")),
         "--threshold": Row("--threshold", "0.9"),
         "--metric": Row("--metric", "manhattan", unfit=POINTS),
@@ -298,13 +301,17 @@ def inputs(Input, program):
     faces = "".join(f"3 {k} {(k + 1) % size} {(k + 2) % size}\n" for k in range(size)).encode()
     off = f"OFF\n{size} {size} 0\n".encode() + text(corners) + faces
     heights = [random.randrange(9) for _ in range(size)]
+    # The first and the last vertex are at one position and have one value.
+    heights[-1] = heights[0]
+    split = text([*corners[:-1], corners[0]])
     add("OFF mesh", ["m.off"], {"m.off": off}, values=heights)
     add("OFF mesh with values", ["m.off", "--values", "values.txt"], {"m.off": off}, 4, values=heights,
-        rows={"--complex": (("--complex", "rips"), {})})
+        split=f"OFF\n{size} {size} 0\n".encode() + split + faces, rows={"--complex": (("--complex", "rips"), {})})
     ply = (f"ply\nformat ascii 1.0\nelement vertex {size}\nproperty float x\nproperty float y\n"
            f"property float z\nelement face {size}\nproperty list uchar int vertex_indices\nend_header\n")
     add("PLY mesh with values", ["m.ply", "--values", "values.txt"],
         {"m.ply": ply.encode() + text(corners) + faces}, 4, values=heights,
+        split=ply.encode() + split + faces,
         rows={"--complex": (("--complex", "rips"), {})})
     looks = {"--plot-kind": (("--plot-kind", "betti"), {}), "--dims": (("--dims", "1"), {}),
              "--title": (("--title", "Loops"), {}), "--size": (("--size", "300x200"), {}),

@@ -304,6 +304,43 @@ TEST(ReadOff, TheCountMayFollowTheWordAtOnce) {
                "too few vertices, found 1, expected 3"));
 }
 
+TEST(Weld, JoinsVerticesAtOnePosition) {
+  // Two triangles with an edge in common, whose ends are listed for each of them.
+  const std::string off =
+      "OFF\n7 3 0\n0 0 0\n1 0 0\n0 1 0\n1 0 0\n0 1 0\n1 1 0\n-0 0 0\n"
+      "3 0 1 2\n3 3 5 4\n3 6 0 1\n";
+  const TempDir dir;
+  const auto read = [&](const char* values, bool weld) {
+    return read_any(Input::view(off, "m.off"), Format::automatic, {.weld = weld},
+                    dir.write("v.txt", values));
+  };
+  const auto says = [](const ReadResult& result, const char* words) {
+    return std::ranges::any_of(result.notes,
+                               [&](const Message& note) { return contains(note.str(), words); });
+  };
+  const char* even = "0 1 2 1 2 3 0";
+  const ReadResult split = read(even, false);
+  EXPECT_EQ(std::get<Mesh>(split.data).vertices.rows(), 7);
+  EXPECT_TRUE(says(split, "3 positions have several vertices each"));
+  EXPECT_TRUE(says(split, "weld joins them"));
+  const ReadResult welded = read(even, true);
+  const Mesh& mesh = std::get<Mesh>(welded.data);
+  EXPECT_EQ(mesh.vertices, (Points{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}));
+  EXPECT_EQ(mesh.values, (std::vector<double>{0, 1, 2, 3}));
+  EXPECT_EQ(mesh.corners, (std::vector<Index>{0, 1, 2, 1, 3, 2, 0, 1}));
+  EXPECT_EQ(mesh.offsets, (std::vector<std::size_t>{0, 3, 6, 8}));
+  EXPECT_EQ(welded.point_ids, (std::vector<Index>{0, 1, 2, 5}));
+  EXPECT_TRUE(says(welded, "3 of 7 vertices joined"));
+  EXPECT_TRUE(contains(bad_data([&] { read("0 1 2 1 9 3 0", true); }),
+                       "the values 2 of vertex 2 and 9 of vertex 4, expected equal values"));
+  EXPECT_TRUE(
+      says(read_any(Input::view("OFF\n1 0 0\n0 0 0\n", "m.off"), Format::automatic, {.weld = true}),
+           "weld does nothing"));
+  EXPECT_TRUE(fails_with(ErrorKind::usage, [&] {
+    read_any(Input::view("1 2\n3 4\n", "p.txt"), Format::automatic, {.weld = true});
+  }));
+}
+
 TEST(ReadAny, DetectsFormats) {
   const std::vector<std::tuple<std::string, std::string, Format>> cases{
       {"p.txt", "1 2 3\n4 5 6\n", Format::points},

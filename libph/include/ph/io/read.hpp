@@ -117,6 +117,8 @@ struct ReadOptions {
   /// For tables: names of columns, numbers ("3") or ranges ("2-5"); empty: all columns.
   std::vector<std::string> columns = {};
   Channel channel = Channel::automatic;  ///< for pictures
+  /// For meshes in read_any: vertices at the same position become one vertex.
+  bool weld = false;
   std::optional<RawLayout> raw = {};     ///< used by read_any for Format::raw
   /// Budget and stop token for an input that is opened by its path; null if there are none. An open
   /// Input has its own context.
@@ -306,7 +308,8 @@ struct ReadResult {
   std::string description;            ///< such as "1024 points in R^3, CSV"
   std::vector<Message> notes;         ///< assumptions, such as "line 1 is a header: skipped"
   /// For Points: row i is point point_ids[i] of the input. If empty, row i is point i: no point was
-  /// left out.
+  /// left out. For a welded Mesh: vertex i is vertex point_ids[i] of the input, the first one at its
+  /// position.
   std::vector<Index> point_ids;
   /// For an Image: true for each axis that closes up on itself, according to the file. Empty if no
   /// axis does.

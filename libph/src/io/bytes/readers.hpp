@@ -99,6 +99,12 @@ BoundaryInput read_dipha_boundary(const Input& input, const ReadOptions& options
 /// is an error unless options.allow_empty is set.
 Image without_nan_pixels(Image image, const Input& input, const ReadOptions& options);
 
+/// A note on vertices at the same position that belong to faces; empty if there are none.
+std::string note_on_seams(const Mesh& mesh, const Input& input);
+/// Makes one vertex of all vertices at the same position. @return for each remaining vertex, its
+/// number before. @throws Error (bad_data) if such vertices have different values.
+std::vector<Index> weld(Mesh& mesh, const Input& input);
+
 /// Renames fields X, Y and Z to x, y and z, unless the cloud has such fields.
 void name_coordinates(Cloud& cloud);
 
