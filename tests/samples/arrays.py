@@ -17,6 +17,11 @@ def numpy_image(name, descr, shape=(2, 3), values=VALUES, **options):
 
 
 GRID = npy("<f8", (2, 3), packed("<f8", VALUES))
+# A structured array with padding, text and a field of two numbers.
+RECORDS = npy_header(
+    "{'descr': [('ring', '|u1'), ('x', '<f4'), ('y', '<f4'), ('', '|V2'), ('z', '<f4'), "
+    "('name', '|S3'), ('pair', '<u2', (2,))], 'fortran_order': False, 'shape': (3,), }"
+) + b"".join(struct.pack("<Bff2xf3s2H", k, k / 4, 1 - k, 2, b"abc", k, 7) for k in range(3))
 NUMPY = [
     *(numpy_image(f"{kind}.npy", ("|" if kind in ("b1", "i1", "u1") else "<") + kind)
       for kind in KINDS),
@@ -38,6 +43,9 @@ NUMPY = [
     Sample("distances.npy", "distances",
            npy("<f4", (3, 3), packed("<f4", [0, 1, 2, 1, 0, 1.5, 2, 1.5, 0])), True,
            ("{}", "--format", "distance")),
+    Sample("records.npy", "npy_points", RECORDS, True),
+    Sample("records_of_a_cloud.npy", "npy_cloud", RECORDS, True, ("{}",),
+           "ph-segment"),
     Sample("stored.npz", "image", npz({"a.npy": GRID}), True),
     Sample("deflated.npz", "image", npz({"a.npy": GRID}, zipfile.ZIP_DEFLATED), True),
     Sample("two.npz", "points", npz({"a.npy": GRID, "points.npy": GRID}), True,

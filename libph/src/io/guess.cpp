@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "libph/src/io/bytes/readers.hpp"
+#include "libph/src/io/points/npy_header.hpp"
 #include "libph/src/io/tables/array.hpp"
 #include "ph/detail/io/table.hpp"
 
@@ -83,10 +84,19 @@ ArrayGuess guess_array(const Input& input, const ReadOptions& options) {
   const bool is_rips = o.array == ArrayMeaning::rips;
   ArrayGuess otherwise{is_rips || !o.columns.empty() ? ArrayMeaning::points : ArrayMeaning::image,
                        {}};
+  if (is_npy_of_records(input)) return {ArrayMeaning::points, {}};
   const NpyLayout npy = npy_layout(input);
   if (npy.shape.size() == 3 && !is_rips) {
     const Index rows = npy.shape[1], columns = npy.shape[2];
-    if (npy.kind == 'f' && columns > 0 && columns <= kMostCoordinates && rows >= kSlender * columns)
+    const bool may_be_sets = columns <= kMostCoordinates && rows >= kSlender * columns;
+    if (npy.kind == 'f' && columns == 3 && npy.count > 0)
+      return {ArrayMeaning::image,
+              fmt::format(
+                  "an array of three axes: read as a volume; {} reads {} x {} points with "
+                  "three coordinates each{}",
+                  mark(Setting::format, "points"), npy.shape[0], rows,
+                  may_be_sets ? "; if it holds several sets of points, take one set, a[i]" : "")};
+    if (npy.kind == 'f' && columns > 0 && may_be_sets)
       return {ArrayMeaning::image,
               fmt::format("an array of three axes: read as a volume; if it holds {} sets of "
                           "{} x {} points, take one set, a[i]",

@@ -68,6 +68,19 @@ def test_images(tmp_path, dtype):
                                   raw_dtype=">" + dtype), image)
 
 
+def test_structured_arrays_in_files(tmp_path):
+    cloud = np.zeros(3, dtype=[("ring", "u1"), ("x", "f4"), ("y", "f4"), ("z", "f4")])
+    cloud["x"] = 1, 2, 3
+    np.save(tmp_path / "c.npy", cloud)
+    assert ph.read(tmp_path / "c.npy").tolist() == [[1, 0, 0], [2, 0, 0], [3, 0, 0]]
+    assert ph.read(tmp_path / "c.npy", columns=["ring", "x"]).shape == (3, 2)
+    np.savez(tmp_path / "c.npz", cloud=cloud)
+    assert ph.read(tmp_path / "c.npz").shape == (3, 3)
+    np.save(tmp_path / "c.npy", cloud[["ring", "x"]])
+    with pytest.raises(ph.DataError, match=r"found fields ring, x, expected .*columns"):
+        ph.read(tmp_path / "c.npy")
+
+
 def test_an_image_beyond_the_memory_stays_in_its_file(tmp_path):
     image = np.random.default_rng(0).integers(0, 99, size=(100, 100, 100)).astype("u1")
     image.tofile(tmp_path / "i.raw")

@@ -265,8 +265,17 @@ def unknown():
                         ("|V8", "raw bytes"), ("<M8[s]", "times"), ("", "nothing"), ("f8", "no order"),
                         ("|f8", "no order for 8 bytes")):
         yield refused(38, "npy", what, shape("(1,)", descr), "NPY element type")
-    yield refused(38, "npy", "a structure", npy_header(
-        "{'descr': [('x', '<f8')], 'fortran_order': False, 'shape': (1,), }") + bytes(8), "structured")
+    for what, fields, message in (
+            ("a structure", "('x', '<f4'), ('id', '<i4')", "found fields x, id, expected fields x, y and z"),
+            ("a structure in a structure", "('x', [('y', '<f8')])", "a structure in a structure"),
+            ("a field of text alone", "('name', '|S8')", "found fields name"),
+            ("a field of 2^62 numbers", f"('x', '<f8', ({2 ** 62},))", "more than 2.20 bytes"),
+            ("a field of 0 bytes", "('x', '<f8', (0,))", "records of 0 bytes"),
+            ("a field without a type", "('x',)", "NPY header"),
+            ("two fields of one name", "('x', '<f4'), ('x', '<f4')", "field named twice"),
+            ("too few records", "('x', '<f8'), ('y', '<f8')", "truncated, found 8 bytes, expected 16")):
+        yield refused(38, "npy", what, npy_header(
+            f"{{'descr': [{fields}], 'fortran_order': False, 'shape': (1,), }}") + bytes(8), message)
     yield refused(38, "npy", "version", with_bytes(GRID, 6, b"\x09"), "NPY version, found 9")
     yield refused(38, "npy", "code in the header", npy_header("__import__('os').getpid()"),
                   "NPY header")

@@ -7,11 +7,13 @@
 
 #include "libph/src/io/bytes/readers.hpp"
 #include "libph/src/io/clouds/cloud_rows.hpp"
+#include "libph/src/io/points/npy_header.hpp"
 #include "ph/io/cloud.hpp"
 
 namespace ph {
 
 Cloud read_npy_cloud(const Input& input, const ReadOptions& options) {
+  if (detail::is_npy_of_records(input)) return detail::cloud_of_records(input, options);
   const Image array = detail::read_npy_array(input);
   const std::vector<Index>& shape = array.extents;
   const bool organised = shape.size() == 3;

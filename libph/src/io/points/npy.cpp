@@ -9,176 +9,35 @@
 #include <ostream>
 
 #include "libph/src/io/bytes/readers.hpp"
+#include "libph/src/io/points/npy_header.hpp"
 #include "libph/src/io/tables/array.hpp"
 #include "ph/io/cloud.hpp"
 
 namespace ph {
-namespace {
-
-constexpr std::string_view kMagic = "\x93NUMPY";
-
-struct Header {
-  std::string descr;
-  bool fortran_order = false;
-  std::vector<Index> shape;
-  std::size_t offset = 0;  // the start of the data
-};
-
-// Reads a header, which is a Python dictionary with three known keys.
-class HeaderParser {
- public:
-  HeaderParser(const Input& input, std::size_t begin, std::size_t end)
-      : input_(input), position_(begin), end_(end) {}
-
-  Header parse() {
-    Header header;
-    bool descr = false, order = false, shape = false;
-    expect('{');
-    while (!accept('}')) {
-      const std::size_t at = position_;
-      const std::string key = string();
-      expect(':');
-      if (key == "descr" && !descr) {
-        header.descr = string();
-        descr = true;
-      } else if (key == "fortran_order" && !order) {
-        header.fortran_order = boolean();
-        order = true;
-      } else if (key == "shape" && !shape) {
-        header.shape = tuple();
-        shape = true;
-      } else {
-        fail(at, "unknown key", printable(key, 40), "descr, fortran_order and shape, once each");
-      }
-      if (!accept(',') && peek() != '}') fail(position_, "NPY header", found(), "',' or '}'");
-    }
-    if (!descr || !order || !shape) {
-      fail(position_, "incomplete NPY header", "", "descr, fortran_order and shape");
-    }
-    skip();
-    if (position_ != end_) fail(position_, "NPY header", found(), "its end");
-    return header;
-  }
-
- private:
-  [[noreturn]] void fail(std::size_t at, std::string what, std::string what_found,
-                         std::string expected) const {
-    input_.fail_at_byte(at, {std::move(what), std::move(what_found), std::move(expected), {}});
-  }
-  std::string found() const {
-    return position_ < end_ ? printable(input_.text().substr(position_, 1)) : "its end";
-  }
-  void skip() {
-    while (position_ < end_ &&
-           std::string_view(" \t\r\n").find(input_.text()[position_]) != std::string_view::npos) {
-      ++position_;
-    }
-  }
-  char peek() {
-    skip();
-    return position_ < end_ ? input_.text()[position_] : '\0';
-  }
-  bool accept(char c) {
-    if (peek() != c || position_ == end_) return false;
-    ++position_;
-    return true;
-  }
-  void expect(char c) {
-    if (!accept(c)) fail(position_, "NPY header", found(), fmt::format("'{}'", c));
-  }
-  std::string string() {
-    const char quote = peek();
-    if (quote != '\'' && quote != '"') {
-      fail(position_, "NPY header", found(), "a quoted word (structured arrays are not read)");
-    }
-    const std::size_t begin = ++position_;
-    while (position_ < end_ && input_.text()[position_] != quote) ++position_;
-    if (position_ == end_) fail(begin, "NPY header", "no closing quote", "one");
-    return std::string(input_.text().substr(begin, position_++ - begin));
-  }
-  bool boolean() {
-    skip();
-    for (const bool value : {false, true}) {
-      const std::string_view word = value ? "True" : "False";
-      if (input_.text().substr(position_, std::min(word.size(), end_ - position_)) == word) {
-        position_ += word.size();
-        return value;
-      }
-    }
-    fail(position_, "fortran_order", found(), "True or False");
-  }
-  std::vector<Index> tuple() {
-    std::vector<Index> shape;
-    expect('(');
-    while (!accept(')')) {
-      skip();
-      Index extent = 0;
-      const char* begin = input_.text().data() + position_;
-      const auto [stop, error] = std::from_chars(begin, input_.text().data() + end_, extent);
-      if (error != std::errc{} || extent < 0) {
-        fail(position_, "shape",
-             error == std::errc::result_out_of_range ? "a number out of the range of int64"
-             : extent < 0                            ? fmt::format("{}", extent)
-                                                     : found(),
-             "sizes of 0 or more");
-      }
-      position_ += static_cast<std::size_t>(stop - begin);
-      shape.push_back(extent);
-      if (!accept(',') && peek() != ')') fail(position_, "shape", found(), "',' or ')'");
-    }
-    return shape;
-  }
-
-  const Input& input_;
-  std::size_t position_;
-  std::size_t end_;
-};
-
-Header read_header(const Input& input) {
-  BinaryCursor cursor(input, std::endian::little);
-  const auto magic = cursor.take(kMagic.size(), "NPY magic number");
-  if (std::memcmp(magic.data(), kMagic.data(), kMagic.size()) != 0) {
-    input.fail_at_byte(0, {"not an NPY file", "a different magic number", "\\x93NUMPY", {}});
-  }
-  const auto major = cursor.read<std::uint8_t>("NPY version");
-  cursor.read<std::uint8_t>("NPY version");
-  if (major < 1 || major > 3) {
-    input.fail_at_byte(6, {"NPY version", fmt::format("{}", major), "1, 2 or 3", {}});
-  }
-  const std::size_t length = major == 1 ? cursor.read<std::uint16_t>("header length")
-                                        : cursor.read<std::uint32_t>("header length");
-  const std::size_t begin = cursor.offset();
-  cursor.take(length, "NPY header");
-  Header header = HeaderParser(input, begin, begin + length).parse();
-  header.offset = begin + length;
-  return header;
-}
-
-}  // namespace
 
 namespace detail {
 
-bool is_npy(const Input& input) { return input.text().starts_with(kMagic); }
+bool is_npy(const Input& input) { return input.text().starts_with(kNpyMagic); }
 
 bool is_npy_of_floats(const Input& input) {
-  const std::string descr = read_header(input).descr;
+  const std::string descr = read_npy_header(input).descr;
   return descr.size() > 1 && descr[1] == 'f';
 }
 
 NpyLayout npy_layout(const Input& input) {
-  Header header = read_header(input);
-  const char mark = header.descr.empty() ? '\0' : header.descr[0];
-  const auto type = mark == '<' || mark == '>' || mark == '|' || mark == '='
-                        ? element_type(std::string_view(header.descr).substr(1))
-                        : std::nullopt;
-  if (!type || (mark == '|' && type->size != 1)) {
+  NpyHeader header = read_npy_header(input);
+  if (header.descr.empty() && !header.fields.empty()) {
+    input.fail({"a structured array", fmt::format("fields {}", names_of_fields(header.fields)),
+                "numbers of one type", "its fields can be read as the coordinates of points"});
+  }
+  const auto type = npy_type(header.descr);
+  if (!type) {
     input.fail({"NPY element type",
                 printable(header.descr, 40),
                 "booleans, integers or floats of at most 8 bytes",
                 {}});
   }
-  NpyLayout npy{{*type, mark == '>' ? std::endian::big : std::endian::little, header.fortran_order,
-                 header.offset},
+  NpyLayout npy{{type->element, type->order, header.fortran_order, header.offset},
                 std::move(header.shape),
                 header.descr[1]};
   npy.count = count_elements(input, npy.array, npy.shape);
@@ -284,10 +143,10 @@ void write_npy(std::ostream& out, std::span<const std::uint32_t> labels, Index w
   std::string header =
       fmt::format("{{'descr': '<u4', 'fortran_order': False, 'shape': {}, }}", shape);
   // The data start at a multiple of 64. The header ends in a line feed.
-  const std::size_t before = kMagic.size() + 4;
+  const std::size_t before = detail::kNpyMagic.size() + 4;
   header.resize((before + header.size() + 1 + 63) / 64 * 64 - before - 1, ' ');
   header += '\n';
-  out.write(kMagic.data(), static_cast<std::streamsize>(kMagic.size()));
+  out.write(detail::kNpyMagic.data(), static_cast<std::streamsize>(detail::kNpyMagic.size()));
   const char lead[] = {1, 0, static_cast<char>(header.size() & 0xFF),
                        static_cast<char>(header.size() >> 8)};
   out.write(lead, sizeof(lead));

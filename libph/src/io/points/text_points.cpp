@@ -2,11 +2,16 @@
 #include "libph/src/io/bytes/readers.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
+#include "libph/src/io/points/npy_header.hpp"
+#include "libph/src/io/tables/array.hpp"
+#include "ph/detail/core/lower_case.hpp"
 #include "ph/detail/io/table.hpp"
 #include "ph/io/cloud.hpp"
 
@@ -73,6 +78,30 @@ void tell_of_counts(const Input& input, const detail::TableLayout& layout, Point
                  fmt::format("the first row {} and is read as {}; remove it if it is a header",
                              rows.cols() == 1 ? "is a whole number" : "holds column numbers",
                              is_image ? "values" : "a point"));
+}
+
+// Adds a note if points without a header have three columns of fractions and then only columns of
+// whole numbers, such as an intensity, a colour or a label.
+void tell_of_whole_columns(PointsView points, const ReadOptions& options) {
+  constexpr Index kFewest = 8, kSpace = 3, kMost = 7;  // x y z, intensity, red green blue
+  const Index columns = points.cols();
+  if (!options.columns.empty() || points.rows() < kFewest || columns <= kSpace || columns > kMost)
+    return;
+  for (Index k = 0; k < columns; ++k) {
+    bool is_whole = true;
+    for (Index i = 0; i < points.rows() && is_whole; ++i)
+      is_whole = std::floor(points(i, k)) == points(i, k);
+    if (is_whole != (k >= kSpace)) return;
+  }
+  const std::string which =
+      columns == kSpace + 1 ? "column 4 has" : fmt::format("columns 4 to {} have", columns);
+  detail::note(
+      options,
+      fmt::format(
+          "{} only whole numbers, unlike the first three, and {} read as {}; {} leaves {} out",
+          which, columns == kSpace + 1 ? "is" : "are",
+          columns == kSpace + 1 ? "a coordinate" : "coordinates", mark(Setting::columns, "1-3"),
+          columns == kSpace + 1 ? "it" : "them"));
 }
 
 // Reads the numbers of a table, without an index column.
@@ -240,17 +269,48 @@ Points without_nan_rows(Points points, const Input& input, const ReadOptions& op
   return points;
 }
 
+Points points_of_array(const Image& array, const Input& input, const ReadOptions& options) {
+  // The stored array and the points exist at the same time, and the array is not counted in any
+  // budget.
+  input.require_memory(array.values.bytes() + array.values.size() * sizeof(double));
+  Points points(array.extents[0], array.extents[1]);
+  with_voxels(array.values.type(), array.values.data(), [&](const auto* numbers) {
+    // The number of values between two polls of the stop token.
+    constexpr std::size_t block = 1 << 16;
+    for (std::size_t k = 0; k < array.values.size(); k += block) {
+      input.poll(input.size());
+      const std::size_t count = std::min(block, array.values.size() - k);
+      std::copy_n(numbers + k, count, points.data() + k);
+    }
+  });
+  tell_of_whole_columns(points, options);
+  return without_nan_rows(chosen_of(std::move(points), input, options), input, options, false);
+}
+
 }  // namespace detail
 
 Points read_points(const Input& input, const ReadOptions& options) {
   Points points;
-  if (detail::is_npy(input) || detail::is_npz(input)) {
-    const Image array = detail::read_npy_array(input);
+  if (detail::is_npz(input)) {
+    const Input array = detail::read_npz_member(input);
+    detail::read_npy_header(array);  // anything else is refused
+    return read_points(array, options);
+  }
+  if (detail::is_npy(input) && detail::is_npy_of_records(input)) {
+    points = detail::points_of_records(input, options);
+  } else if (detail::is_npy(input)) {
+    Image array = detail::read_npy_array(input);
+    // An organised cloud has a row of points for each row of a picture.
+    if (array.dim() == 3 && array.extents[2] == 3) {
+      detail::note(options, fmt::format("an array of {} x {} points with three coordinates each",
+                                        array.extents[0], array.extents[1]));
+      array.extents = {array.extents[0] * array.extents[1], 3};
+    }
     if (array.dim() != 2) {
       input.fail(
           {"not a set of points",
            fmt::format("an array of {} dimension{}", array.dim(), array.dim() == 1 ? "" : "s"),
-           "2 dimensions, with one point per row",
+           "2 dimensions, with one point per row, or a shape (rows, columns, 3)",
            array.dim() == 1 ? "a[:, None] has one number per row" : ""});
     }
     if (array.values.empty() && array.extents[0] > 0) {
@@ -259,21 +319,7 @@ Points read_points(const Input& input, const ReadOptions& options) {
                   "at least one column",
                   {}});
     }
-    // The stored array and the points exist at the same time, and the array is not counted in any
-    // budget.
-    input.require_memory(array.values.bytes() + array.values.size() * sizeof(double));
-    points = Points(array.extents[0], array.extents[1]);
-    with_voxels(array.values.type(), array.values.data(), [&](const auto* numbers) {
-      // The number of values between two polls of the stop token.
-      constexpr std::size_t block = 1 << 16;
-      for (std::size_t k = 0; k < array.values.size(); k += block) {
-        input.poll(input.size());
-        const std::size_t count = std::min(block, array.values.size() - k);
-        std::copy_n(numbers + k, count, points.data() + k);
-      }
-    });
-    points = chosen_of(std::move(points), input, options);
-    points = detail::without_nan_rows(std::move(points), input, options, false);
+    points = detail::points_of_array(array, input, options);
   } else if (detail::is_pcd(input) || detail::is_ply(input)) {
     detail::refuse_columns(options, detail::is_pcd(input) ? "PCD" : "PLY");
     points = detail::without_nan_rows(

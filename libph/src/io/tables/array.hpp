@@ -9,6 +9,7 @@
 #include "ph/detail/core/file_pages.hpp"
 #include "ph/detail/io/reader.hpp"
 #include "ph/image.hpp"
+#include "ph/io/read.hpp"
 
 namespace ph::detail {
 
@@ -62,6 +63,10 @@ std::size_t count_elements(const Input& input, const ArrayLayout& layout,
 /// (io).
 Image load_array(const Input& input, const ArrayLayout& layout, std::vector<Index> extents,
                  Input::Excess excess = Input::Excess::refused);
+
+/// The rows of an array with two axes as points: those of its columns that options.columns chooses.
+/// @throws Error (bad_data) on a number that is not finite; see NanPolicy. Error (resource).
+Points points_of_array(const Image& array, const Input& input, const ReadOptions& options);
 
 /// Numbers in a temporary file. They are zero until `fill(std::span<T>)` writes them.
 template <VoxelNumber T, class Fill>

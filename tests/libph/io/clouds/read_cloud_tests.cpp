@@ -313,6 +313,89 @@ TEST(ReadNpyCloud, TakesPointsAndOrganisedPoints) {
     EXPECT_TRUE(contains(bad_data([&, b = content] { cloud(b); }), message)) << message;
 }
 
+// A structured array. @param descr the list of its fields.
+std::string records(const std::string& descr, const std::string& shape, const std::string& data) {
+  std::string header = "{'descr': " + descr + ", 'fortran_order': False, 'shape': " + shape + ", }";
+  header.resize(245, ' ');
+  return std::string("\x93NUMPY\x01\x00", 8) + le(std::uint16_t{246}) + header + "\n" + data;
+}
+
+TEST(ReadRecords, FieldsAreCoordinates) {
+  std::string plain, full;
+  for (const float x : {0.5F, 3.0F}) {
+    plain += le(x) + le(x + 1) + le(x + 2);
+    full += std::string("\7") + le(x) + le(x + 1) + std::string("pad_") + le(x + 2) + "text" +
+            le(std::uint16_t{9}) + le(std::uint16_t{8});
+  }
+  const Points expected{{0.5, 1.5, 2.5}, {3, 4, 5}};
+  const auto points = [](const std::string& bytes, const ReadOptions& options = {}) {
+    return read_any(Input::view(bytes, "a.npy"), Format::automatic, options);
+  };
+  const std::string vertices =
+      records("[('f0', '<f4'), ('f1', '<f4'), ('f2', '<f4')]", "(2,)", plain);
+  const std::string cloud = records(
+      "[('ring', '|u1'), ('X', '<f4'), ('Y', '<f4'), ('', '|V4'), ('Z', '<f4'), ('name', '|S4'), "
+      "('rg', '<u2', (2,))]",
+      "(1, 2)", full);
+  EXPECT_EQ(std::get<Points>(points(vertices).data), expected);
+  const ReadResult some = points(cloud);
+  EXPECT_EQ(std::get<Points>(some.data), expected);
+  ASSERT_EQ(some.notes.size(), 1U);
+  EXPECT_EQ(some.notes[0].str(),
+            "a structured array with the fields ring, X, Y, Z, name, rg: X, Y and Z are read as "
+            "coordinates; columns NAMES chooses others");
+  EXPECT_EQ(std::get<Points>(points(cloud, {.columns = {"ring", "rg_1", "Z"}}).data),
+            (Points{{7, 2.5, 8}, {7, 5, 8}}));
+  const auto cloud_of = [](const std::string& bytes) {
+    return read_cloud(Input::view(bytes, "a.npy"));
+  };
+  EXPECT_EQ(points_of(cloud_of(vertices)), expected);
+  const Cloud all = cloud_of(cloud);
+  EXPECT_EQ(points_of(all), expected);
+  EXPECT_EQ(all.fields.size(), 5U) << "padding and text are left out";
+  EXPECT_EQ(all.find("rg")->count, 2U);
+  EXPECT_EQ(all.width, 2);
+  // Big-endian numbers are swapped.
+  std::string swapped = plain;
+  for (std::size_t k = 0; k < swapped.size(); k += 4)
+    std::reverse(swapped.begin() + static_cast<std::ptrdiff_t>(k),
+                 swapped.begin() + static_cast<std::ptrdiff_t>(k + 4));
+  const std::string big = records("[('x', '>f4'), ('y', '>f4'), ('z', '>f4')]", "(2,)", swapped);
+  EXPECT_EQ(std::get<Points>(points(big).data), expected);
+  EXPECT_EQ(points_of(cloud_of(big)), expected);
+  for (std::size_t length = 0; length < cloud.size(); ++length)
+    bad_data([&] { points(cloud.substr(0, length)); });
+}
+
+TEST(ReadRecords, RefusesWhatIsNotACloud) {
+  const auto message = [](const std::string& bytes, const ReadOptions& options = {}) {
+    return bad_data([&] { read_any(Input::view(bytes, "a.npy"), Format::automatic, options); });
+  };
+  const std::string eight(8, '\0');
+  const struct {
+    std::string bytes, words;
+  } faults[] = {
+      {records("[('a', '<f4'), ('label', '<i4')]", "(1,)", eight),
+       "found fields a, label, expected fields x, y and z, or only floats; columns NAMES"},
+      {records("[('a', '<f4')]", "(3,)", eight), "truncated, found 8 bytes, expected 12"},
+      {records("[('a', '<f4')]", "(1,)", eight), "trailing data"},
+      {records("[('a', '<f4'), ('a', '<f4')]", "(1,)", eight), "field named twice, found a"},
+      {records("[('a', [('b', '<f4')])]", "(1,)", eight), "a structure in a structure"},
+      {records("[('a', 'f')]", "(1,)", eight), "type of a field, found f"},
+      {records("[('a', '<f4', (0,))]", "(1,)", eight), "records of 0 bytes"},
+      {records("[]", "(1,)", eight), "records of 0 bytes"},
+      {records("[('a', '<f4', (1048577,))]", "(1,)", eight), "more than 2^20 bytes"},
+      {records("[('a', '|V1048577')]", "(1,)", eight), "more than 2^20 bytes"},
+      {records("[('a', '<f4' ('b', '<f4')]", "(1,)", eight), "NPY header"},
+  };
+  for (const auto& [bytes, words] : faults)
+    EXPECT_TRUE(contains(message(bytes), words)) << message(bytes);
+  const std::string vertices = records("[('x', '<f8')]", "(1,)", eight);
+  EXPECT_TRUE(contains(message(vertices, {.array = ArrayMeaning::image}), "a structured array"));
+  EXPECT_TRUE(contains(bad_data([&] { read_cloud(Input::view(vertices, "a.npy")); }),
+                       "found fields x, expected fields x, y and z, or three fields of floats"));
+}
+
 TEST(ReadClouds, CapitalsNameCoordinates) {
   const std::string pcd =
       "VERSION 0.7\nFIELDS X Y Z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 1\nHEIGHT 1\n"
@@ -325,6 +408,20 @@ TEST(ReadClouds, CapitalsNameCoordinates) {
               (Points{{1, 2, 3}}));
     EXPECT_NE(read_cloud(Input::view(text, "c")).find("z"), nullptr);
   }
+}
+
+TEST(ReadClouds, OrganisedArraysArePoints) {
+  const std::string bytes = npy<float>("<f4", "(2, 1, 3)", {1, 2, 3, 4, 5, 6});
+  const auto read = [&](ArrayMeaning meaning) {
+    return read_any(Input::view(bytes, "a.npy"), Format::automatic, {.array = meaning});
+  };
+  EXPECT_EQ(std::get<Points>(read(ArrayMeaning::points).data), (Points{{1, 2, 3}, {4, 5, 6}}));
+  const ReadResult volume = read(ArrayMeaning::automatic);
+  EXPECT_TRUE(std::holds_alternative<Image>(volume.data));
+  ASSERT_EQ(volume.notes.size(), 1U);
+  EXPECT_EQ(volume.notes[0].str(),
+            "an array of three axes: read as a volume; format points reads 2 x 1 points with three "
+            "coordinates each");
 }
 
 TEST(ReadDepth, KnowsWhichUnitIsUsual) {
