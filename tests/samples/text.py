@@ -40,6 +40,7 @@ SAMPLES = [
     points("comments.txt", b"# a square\n\n0 0 # a corner\n1 0\n  1 1  \n# the last\n0 1\n"),
     points("mark.txt", b"\xef\xbb\xbf0 0\n1 0\n1 1\n"),
     points("carriage_return.csv", b"a,b\r\n0,0\r\n1,0\r\n1,1\r\n"),
+    points("said.asc", b"//X Y Z\n3\n0 0 1\n1 0 2\n0.5 0.5 3\n"),
     points("one_column.txt", b"0\n1\n1.5\n-4e-1\n"),
     points("trailing_separator.csv", b"0,0,\n1,0,\n1,1,\n"),
     points("denormal.txt", b"0 4.9e-324\n1e-310 1\n-0 1e300\n"),

@@ -16,7 +16,11 @@ std::string in_keywords(Setting setting, std::string_view value) {
   if (name.empty() || given.empty()) return name;
   // A camera and a placeholder are written without quotes.
   if (setting == Setting::camera || is_placeholder(given)) return name + ' ' + given;
-  if (setting == Setting::columns) return name + "=['" + given + "']";
+  if (setting == Setting::columns) {
+    std::string columns;
+    for (const char c : given) columns += c == ',' ? "', '" : std::string(1, c);
+    return name + "=['" + columns + "']";
+  }
   if (is_number(given)) return name + '=' + given;
   if (given.find(',') == given.npos) return name + '=' + alternatives(given, "'");
   std::string numbers;

@@ -68,6 +68,14 @@ def test_images(tmp_path, dtype):
                                   raw_dtype=">" + dtype), image)
 
 
+def test_the_note_on_columns_is_valid_python(tmp_path, caplog):
+    path = write(tmp_path, "c.csv", "x,y,z,ring\n1,2,3,4\n5,6,7,8\n")
+    with caplog.at_level("INFO", logger="libph"):
+        assert ph.read(path).shape == (2, 4)
+    assert "columns=['x', 'y', 'z'] leaves it out" in caplog.text
+    assert ph.read(path, columns=["x", "y", "z"]).tolist() == [[1, 2, 3], [5, 6, 7]]
+
+
 def test_structured_arrays_in_files(tmp_path):
     cloud = np.zeros(3, dtype=[("ring", "u1"), ("x", "f4"), ("y", "f4"), ("z", "f4")])
     cloud["x"] = 1, 2, 3

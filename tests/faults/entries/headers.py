@@ -53,6 +53,8 @@ def tera():
     yield refused(31, "off", "faces", OFF.format(1, TERA), "truncated: the counts do not fit")
     yield refused(31, "off", "vertices after the word", f"OFF{TERA} 0 0\n0 0 0\n",
                   "truncated: the counts do not fit")
+    yield refused(31, "points", "said rows", f"x y\n{TERA}\n0 0\n1 1\n",
+                  "truncated, found 2 points, expected 1000000000000, as line 2 says")
     yield refused(31, "off", "corners", f"OFF\n1 1 0\n0 0 0\n{TERA} 0\n", "number of corners")
     yield refused(31, "pts", "points", f"{TERA}\n0 0 1\n", "number of points out of range")
     yield refused(31, "npy", "values", shape("(1000000000000,)"), "truncated, found 8 bytes")

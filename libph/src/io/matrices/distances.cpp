@@ -101,6 +101,12 @@ DistanceMatrix read_text_square(const Input& input, const ReadOptions& options) 
     input.fail({"not square", fmt::format("{} rows of {} cells", row, n), fmt::format("{} rows", n),
                 detail::why_square(options)});
   }
+  if (layout.said && *layout.said != n)
+    input.fail_at(layout.said_line, 1,
+                  {"number of rows",
+                   fmt::format("{}", *layout.said),
+                   fmt::format("{}, the rows of the matrix", n),
+                   {}});
   entries.finish();
   return DistanceMatrix(static_cast<Index>(n), std::move(pairs), std::move(births));
 }

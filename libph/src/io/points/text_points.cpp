@@ -80,6 +80,44 @@ void tell_of_counts(const Input& input, const detail::TableLayout& layout, Point
                              is_image ? "values" : "a point"));
 }
 
+// "a", "a and b" or "a, b and c".
+std::string listed(std::vector<std::string> words) {
+  if (words.size() == 1) return words.front();
+  const std::string last = std::move(words.back());
+  words.pop_back();
+  return fmt::format("{} and {}", fmt::join(words, ", "), last);
+}
+
+// Adds a note if a table names x and y, possibly z, and other columns, which are read as
+// coordinates as well.
+void tell_of_other_columns(const detail::TableLayout& layout, const ReadOptions& options) {
+  if (!options.columns.empty() || layout.header.size() != layout.width) return;
+  std::vector<std::string> coordinates, others;
+  for (const std::size_t k : layout.columns) {
+    const std::string& name = layout.header[k];
+    const std::string lower = lower_case(name);
+    const bool is_coordinate = lower == "x" || lower == "y" || lower == "z";
+    (is_coordinate ? coordinates : others).push_back(is_coordinate ? name : printable(name, 40));
+  }
+  const auto has = [&](std::string_view name) {
+    return std::ranges::count_if(coordinates,
+                                 [&](const auto& found) { return lower_case(found) == name; }) == 1;
+  };
+  if (others.empty() || !has("x") || !has("y") || coordinates.size() != (has("z") ? 3U : 2U))
+    return;
+  constexpr std::size_t most_named = 3;
+  const std::size_t named = others.size() > most_named ? most_named - 1 : others.size();
+  std::vector<std::string> words(others.begin(),
+                                 others.begin() + static_cast<std::ptrdiff_t>(named));
+  if (named < others.size()) words.push_back(fmt::format("{} more", others.size() - named));
+  detail::note(options,
+               fmt::format("{} {} read as {}; {} leaves {} out", listed(words),
+                           others.size() == 1 ? "is" : "are",
+                           others.size() == 1 ? "a coordinate" : "coordinates",
+                           mark(Setting::columns, fmt::format("{}", fmt::join(coordinates, ","))),
+                           others.size() == 1 ? "it" : "them"));
+}
+
 // Adds a note if points without a header have three columns of fractions and then only columns of
 // whole numbers, such as an intensity, a colour or a label.
 void tell_of_whole_columns(PointsView points, const ReadOptions& options) {
@@ -113,6 +151,8 @@ detail::TextTable table_of_points(const Input& input, const ReadOptions& options
       input, options.nan == NanPolicy::drop ? Allow::missing : Allow::finite, options, false,
       &layout);
   tell_of_counts(input, layout, table.rows, as_points);
+  tell_of_other_columns(layout, options);
+  if (layout.header.empty()) tell_of_whole_columns(table.rows, options);
   return table;
 }
 
@@ -151,6 +191,7 @@ TextTable read_text_table(const Input& input, Allow allow, const ReadOptions& op
   } else if (layout != nullptr) {
     table.header = layout->header;
     layout->tell(options);
+    said = layout->said.value_or(0);
   } else if (more) {
     table.header = header_names(lines.line());
     if (!table.header.empty()) {
@@ -159,10 +200,11 @@ TextTable read_text_table(const Input& input, Allow allow, const ReadOptions& op
     }
   }
   const auto check_count = [&](std::size_t count) {
-    if (!counted || count == said) return;
+    if (count == said || !(counted || (layout != nullptr && layout->said))) return;
     input.fail({count < said ? "truncated" : "trailing data",
                 fmt::format("{} points", count),
-                fmt::format("{}, as the first line says", said),
+                fmt::format("{}, as {} says", said,
+                            counted ? "the first line" : fmt::format("line {}", layout->said_line)),
                 {}});
   };
   if (!more) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <limits>
 #include <utility>
 
@@ -227,6 +228,29 @@ bool may_be_names(const TextLines& first, const TextLines& next, const TableLayo
   return looks(first) == std::pair(true, true) && !looks(next).second;
 }
 
+// The number of rows that a line states, if the line has one whole number and the rows after it
+// have several cells: as many as the header or, without a header, two rows alike. A single row
+// after a number may be the second row of a triangle of distances. After a header of several names,
+// the file may end before or within the first row.
+std::optional<std::size_t> number_of_rows(const TextLines& line, std::size_t names) {
+  constexpr std::size_t most_digits = 15;
+  const std::string_view text = line.line();
+  if (!is_whole(text) || text.size() > most_digits) return std::nullopt;
+  TextLines row(line);
+  const auto width = [&] {
+    if (!row.next()) return std::size_t{0};
+    const char separator = separator_in(row.line());
+    return count_cells(row, separator == '\t' ? ' ' : separator);
+  };
+  const std::size_t first = width();
+  const bool is_cut_off = first < names && names > 1 && (first == 0 || width() == 0);
+  if (!is_cut_off && (first < 2 || (names > 0 ? names != first : first != width())))
+    return std::nullopt;
+  std::size_t number = 0;
+  std::from_chars(text.data(), text.data() + text.size(), number);
+  return number;
+}
+
 // True if the first column is left out because it contains the names or the numbers of the rows. In
 // this case, a note gives the reason.
 bool leads_with_names(const Input& input, TableLayout& layout, std::string_view first_cell) {
@@ -284,8 +308,9 @@ TextLines TableLayout::lines(const Input& input) const {
 }
 
 bool TableLayout::start(TextLines& lines) const {
-  if (!lines.next()) return false;
-  return header.empty() || lines.next();
+  for (int before = (header.empty() ? 0 : 1) + (said ? 1 : 0); before > 0; --before)
+    if (!lines.next()) return false;
+  return lines.next();
 }
 
 void TableLayout::tell(const ReadOptions& options) const {
@@ -319,12 +344,20 @@ TableLayout table_layout(const Input& input, const ReadOptions& options) {
   if (has_header)
     layout.notes.push_back(fmt::format("line {} is a header: skipped", lines.number()));
   if (has_header && !has_next) return layout;
-  const TextLines& row = has_header ? next : lines;
+  TextLines row = has_header ? next : lines;
+  layout.said = number_of_rows(row, layout.header.size());
+  if (layout.said) {
+    layout.said_line = row.number();
+    layout.notes.push_back(
+        fmt::format("line {} says the number of rows, {}: skipped", row.number(), *layout.said));
+    if (!row.next()) return layout;
+  }
   layout.separator = separator(row);
   layout.width = width_of(row, layout);
   // In points and pictures, a row or a column that counts may be data, even if the rest happens to
   // be symmetric.
-  if (!has_header && options.array != ArrayMeaning::points && options.array != ArrayMeaning::image)
+  if (!has_header && !layout.said && options.array != ArrayMeaning::points &&
+      options.array != ArrayMeaning::image)
     leave_counts_out(input, lines, options, layout);
   if (!options.columns.empty()) {
     std::vector<std::string> names = layout.header;

@@ -43,6 +43,79 @@ TEST(ReadTable, LeavesAnIndexOut) {
   EXPECT_TRUE(says(any("id,x\n4,5\n9,6\n"), "columns 2-2"));
 }
 
+TEST(ReadTable, ColumnsBesideCoordinatesAreNamed) {
+  const std::string rows = "0.5,1.25,2,10\n0.25,1,3,20\n";
+  const struct {
+    std::string text;
+    Index columns;
+    const char* note;
+  } cases[] = {
+      {"x,y,z,intensity\n" + rows, 4,
+       "intensity is read as a coordinate; columns x,y,z leaves it out"},
+      {"time,X,Y,Z\n" + rows, 4, "time is read as a coordinate; columns X,Y,Z leaves it out"},
+      {"x,y,r,label\n" + rows, 4,
+       "r and label are read as coordinates; columns x,y leaves them out"},
+      {"x y z nx ny nz i\n1 2 3 4 5 6 7\n", 7,
+       "nx, ny and 2 more are read as coordinates; columns x,y,z leaves them out"},
+  };
+  for (const auto& [text, columns, note] : cases) {
+    const ReadResult result = any(text);
+    EXPECT_EQ(std::get<Points>(result.data).cols(), columns) << text;
+    EXPECT_TRUE(says(result, note)) << text;
+  }
+  for (const char* text : {"x,y,z\n1,2,3\n4,5,7\n", "a,b,c,d\n1,2,3,4\n", "x,y,y,i\n1,2,3,4\n",
+                           ",x,y,z\n1,1,2,3\n2,4,5,7\n", "x,z,i\n1,2,3\n"})
+    EXPECT_FALSE(says(any(text), "coordinate")) << text;
+  const ReadOptions some{.columns = {"x", "y", "z"}};
+  EXPECT_FALSE(says(any(cases[0].text, some), "coordinate"));
+  EXPECT_EQ(std::get<Points>(any(cases[0].text, some).data),
+            (Points{{0.5, 1.25, 2}, {0.25, 1, 3}}));
+}
+
+TEST(ReadTable, WholeNumbersBesideFractionsAreNamed) {
+  std::string four, six, fractions, two;
+  for (int i = 0; i < 8; ++i) {
+    const std::string xyz = std::to_string(i) + ".5 0.25 " + std::to_string(7 * i % 5) + ".125";
+    four += xyz + " " + std::to_string(3 * i) + "\n";
+    six += xyz + " 1 2 3\n";
+    fractions += xyz + " 0.5\n";
+    two += std::to_string(i) + ".5 0.25 1 2\n";
+  }
+  EXPECT_TRUE(says(any(four),
+                   "column 4 has only whole numbers, unlike the first three, and is read as a "
+                   "coordinate; columns 1-3 leaves it out"));
+  EXPECT_TRUE(says(any(six), "columns 4 to 6 have only whole numbers"));
+  for (const std::string& text : {fractions, two, four.substr(0, four.find('\n'))})
+    EXPECT_FALSE(says(any(text), "whole numbers")) << text;
+  EXPECT_FALSE(says(any(four, {.columns = {"1-3"}}), "whole numbers"));
+  std::vector<double> numbers;
+  for (int i = 0; i < 20; ++i) numbers.insert(numbers.end(), {i + 0.5, i * 0.3, 0.7, 5.0 * i});
+  EXPECT_TRUE(says(any(npy("(20, 4)", numbers)), "column 4 has only whole numbers"));
+}
+
+TEST(ReadTable, ANumberOfRowsBeforeTheRowsIsChecked) {
+  for (const char* text :
+       {"//X Y Z R\n2\n0.5 1 2 9\n3 4 5 9\n", "2\n0.5 1 2\n3 4 5\n", "x,y\n3\n0.5,1\n3,4\n5,6\n"}) {
+    const ReadResult result = any(text);
+    EXPECT_EQ(std::get<Points>(result.data)(0, 0), 0.5) << text;
+    EXPECT_TRUE(says(result, "says the number of rows")) << text;
+  }
+  const auto message = [](const std::string& text) { return bad_data([&] { any(text); }); };
+  EXPECT_TRUE(contains(message("x y\n3\n0.5 1\n3 4\n"),
+                       "truncated, found 2 points, expected 3, as line 2 says"));
+  EXPECT_TRUE(contains(message("x y\n3\n"), "truncated, found 0 points, expected 3"));
+  EXPECT_TRUE(contains(message("x y\n3\n0"), "truncated, found 1 points, expected 3"));
+  EXPECT_TRUE(contains(message("1\n0.5 1 2\n3 4 5\n"),
+                       "trailing data, found 2 points, expected 1, as line 1 says"));
+  EXPECT_TRUE(contains(message("2\n0.5 1\n"), "ragged row")) << "may be a truncated triangle";
+  EXPECT_TRUE(contains(message("2.5\n0.5 1 2\n3 4 5\n"), "ragged row"));
+  EXPECT_EQ(any("1\n2 3\n4 5 6\n").format, Format::lower_distance);
+  EXPECT_EQ(std::get<Points>(any("3\n1\n2\n").data).rows(), 3) << "points on a line";
+  const std::string square = "0 1 2\n1 0 3\n2 3 0\n";
+  EXPECT_EQ(std::get<DistanceMatrix>(any("3\n" + square).data).size(), 3);
+  EXPECT_TRUE(contains(message("4\n" + square), "t.csv:1:1: number of rows, found 4, expected 3"));
+}
+
 TEST(ReadTable, ChoosesColumns) {
   const std::string text = "name,x,2,y\na,1,2,3\nb,4,5,6\n";
   const auto points = [&](std::vector<std::string> columns) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -20,6 +21,9 @@ struct TableLayout {
   std::vector<Message> notes = {};        ///< assumptions that were made
   char separator = ' ';     ///< separator of the first row: ',', ';', a tab, or blanks
   bool keeps_tabs = false;  ///< each tab separates two cells
+  /// The number of rows that a line of its own before the rows states, as CloudCompare writes it.
+  std::optional<std::size_t> said = {};
+  std::size_t said_line = 0;  ///< the number of this line
 
   /// Number of leading columns that have no name although there is a header.
   std::size_t unnamed() const;
@@ -27,7 +31,7 @@ struct TableLayout {
   TextLines lines(const Input& input) const;
   /// True for each column k < width that is one of `columns`.
   std::vector<bool> taken() const;
-  /// Goes to the first row, after the header. @return true if there is one.
+  /// Goes to the first row, after the header and the number of rows. @return true if there is one.
   bool start(TextLines& lines) const;
   /// Passes the notes to options.note.
   void tell(const ReadOptions& options) const;
