@@ -59,8 +59,9 @@ def read(path: str | os.PathLike[str], format: str | None = None, *,
          values: str | os.PathLike[str] | None = None, nan: str = "error",
          columns: Sequence[str] | None = None, array: str = "auto", symmetrise: str | None = None,
          from_correlation: bool = False, diagonal: str = "zero", channel: str = "auto",
-         raw_shape: Sequence[int] | None = None, raw_dtype: DTypeLike = "uint8",
-         raw_skip: int = 0, **run: Unpack[RunOptions]) -> Any:
+         raw_shape: Sequence[int] | None = None, raw_points: int | None = None,
+         raw_dtype: DTypeLike = None, raw_skip: int = 0, weld: bool = False,
+         **run: Unpack[RunOptions]) -> Any:
     """Reads a file of points, distances, an image, simplices, a boundary matrix or a mesh.
 
     What libph assumed about the file is reported to the logger "libph", level INFO.
@@ -90,11 +91,18 @@ def read(path: str | os.PathLike[str], format: str | None = None, *,
     channel : {"auto", "grey", "red", "green", "blue", "alpha"}
         The channel that gives the value of a pixel.
     raw_shape : sequence of int, optional
-        For ``format="raw"``: sizes of the axes, the last one fastest.
-    raw_dtype : dtype
-        Type of the voxels, integer or float, with its byte order: ">i2".
+        For an image without a header (``format="raw"``): sizes of the axes, the last one fastest.
+    raw_points : int, optional
+        For points without a header (``format="raw"``): numbers per point, 4 for a file of KITTI.
+        `columns` chooses some of these numbers: ``raw_points=4, columns=["1-3"]``.
+    raw_dtype : dtype, optional
+        Type of the numbers, integer or float, with its byte order: ">i2". Default: uint8 for an
+        image, float32 in little endian for points.
     raw_skip : int
-        Bytes before the first voxel.
+        Bytes before the first number.
+    weld : bool
+        For a mesh (OFF, PLY). If True, vertices at the same position become one vertex, as along the
+        seams of a texture. Their values must be equal.
     **run
         `threads`, `memory_limit`, `progress`, `timeout`, `stop`; see `libph`.
 
@@ -108,12 +116,13 @@ def read(path: str | os.PathLike[str], format: str | None = None, *,
 
 def found_by(path: Any, format: Any, values: Any, nan: Any, columns: Any, array: Any,
              symmetrise: Any, from_correlation: Any, diagonal: Any, channel: Any, raw_shape: Any,
-             raw_dtype: Any, raw_skip: Any, run: Any) -> dict[str, Any]:
+             raw_points: Any, raw_dtype: Any, raw_skip: Any, weld: Any, run: Any) -> dict[str, Any]:
     """The result of `_core.read` for the arguments of `read`."""
     _run.check_names("read", dict(run), read)
     name = "auto" if format is None else _options.choice("format", format, _core.format_names())
     try:
-        dtype = np.dtype(raw_dtype)
+        dtype = np.dtype(("uint8" if raw_points is None else "<f4") if raw_dtype is None
+                         else raw_dtype)
         if dtype.kind not in "uif" or dtype.itemsize > 8:
             raise TypeError
     except TypeError:
@@ -134,16 +143,21 @@ def found_by(path: Any, format: Any, values: Any, nan: Any, columns: Any, array:
         "raw_shape": None if raw_shape is None else [
             _options.whole("raw_shape", extent, 0)
             for extent in _options.several("raw_shape", raw_shape, "the extents of an image")],
+        "raw_points": None if raw_points is None else _options.whole("raw_points", raw_points, 1),
         "raw_type": f"{dtype.kind}{dtype.itemsize}",
         "raw_big_endian": dtype.newbyteorder("=") != dtype,
-        "raw_skip": _options.whole("raw_skip", raw_skip, 0)}
+        "raw_skip": _options.whole("raw_skip", raw_skip, 0),
+        "weld": _options.flag("weld", weld)}
     if columns is not None and not options["columns"]:
         raise _options.refuse("columns", columns, "names or numbers of columns")
-    if raw_shape is not None and name == "auto":
+    if raw_shape is not None and raw_points is not None:
+        raise _errors.UsageError("raw_points: cannot be combined with raw_shape, which reads an image")
+    has_layout = raw_shape is not None or raw_points is not None
+    if has_layout and name == "auto":
         name = "raw"
-    if name != "raw" and (raw_shape is not None or dtype != np.uint8 or options["raw_skip"]):
-        raise _errors.UsageError("raw_shape, raw_dtype, raw_skip: found format "
-                                 f"{name!r}, expected 'raw' and a raw_shape")
+    if name != "raw" and (has_layout or raw_dtype is not None or options["raw_skip"]):
+        raise _errors.UsageError("raw_shape, raw_points, raw_dtype, raw_skip: found format "
+                                 f"{name!r}, expected 'raw' and a raw_shape or raw_points")
     file = _options.path_of(path)
     if format is None and columns is None and _is_barcode(file):
         raise _errors.DataError(f"{os.fsdecode(file)}: found a barcode, expected data; "

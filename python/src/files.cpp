@@ -114,9 +114,12 @@ ReadOptions read_options_of(const py::dict& given) {
   options.array = given["array"].cast<ArrayMeaning>();
   options.columns = given["columns"].cast<std::vector<std::string>>();
   options.channel = given["channel"].cast<Channel>();
-  if (!given["raw_shape"].is_none()) {
+  options.weld = given["weld"].cast<bool>();
+  if (!given["raw_shape"].is_none() || !given["raw_points"].is_none()) {
     RawLayout layout;
-    layout.extents = given["raw_shape"].cast<std::vector<Index>>();
+    if (!given["raw_shape"].is_none())
+      layout.extents = given["raw_shape"].cast<std::vector<Index>>();
+    if (!given["raw_points"].is_none()) layout.coordinates = given["raw_points"].cast<Index>();
     layout.type = given["raw_type"].cast<std::string>();
     layout.big_endian = given["raw_big_endian"].cast<bool>();
     layout.skip = given["raw_skip"].cast<std::size_t>();

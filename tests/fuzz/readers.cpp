@@ -48,6 +48,11 @@ Image raw(const Input& input, const ReadOptions& options) {
   return read_raw(input, {.extents = {2, 3}, .type = "i2", .skip = 4}, options);
 }
 
+/// Reads a raw file with a fixed number of numbers per point.
+Points raw_points(const Input& input, const ReadOptions& options) {
+  return read_raw_points(input, {.type = "f4", .skip = 4, .coordinates = 3}, options);
+}
+
 /// Reads a mesh whose vertices at one position are joined.
 ReadResult welded(const Input& input, ReadOptions options) {
   options.weld = true;
@@ -117,6 +122,7 @@ constexpr std::array kReaders{
     reader<&of_format<Format::dipha>>("dipha", ".dipha"),
     reader<Reads<Image>(&read_nifti)>("nifti", ".nii"),
     reader<&raw>("raw", ".raw"),
+    reader<&raw_points>("raw_points", ".bin"),
     reader<Reads<PerseusImage>(&read_perseus)>("perseus", ".perseus"),
     reader<Reads<SimplicesInput>(&read_simplices)>("simplices", ".simplices"),
     reader<Reads<BoundaryInput>(&read_phat)>("phat", ".phat"),

@@ -32,8 +32,10 @@ void take_periodic(Job& job, const std::string& text) {
   }
 }
 
+// The type stays empty until an option gives it, because its default depends on other options.
 RawLayout& raw(Job& job) {
-  return job.reading.options.raw ? *job.reading.options.raw : job.reading.options.raw.emplace();
+  if (!job.reading.options.raw) job.reading.options.raw.emplace().type.clear();
+  return *job.reading.options.raw;
 }
 
 }  // namespace
@@ -83,33 +85,50 @@ void add_raw_options(app::Options& options, Job& job) {
         const auto extents = parse_integers("--raw-shape", text, 0, most);
         raw(job).extents.assign(extents.begin(), extents.end());
       });
-  options.choice({"--raw-type", kOfRaw},
+  options.value({"--raw-points", kOfRawPoints}, "D",
+                "the input is points of D numbers each without a header that says so; --columns "
+                "chooses some of these numbers",
+                [&job](const std::string& text) {
+                  constexpr Index most = Index{1} << 20;
+                  raw(job).coordinates = parse_integer("--raw-points", text, 1, most);
+                });
+  options.choice({"--raw-type", kOfRawNumbers},
                  {"uint8", "int8", "uint16", "int16", "uint32", "int32", "uint64", "int64",
                   "float16", "float32", "float64"},
-                 "what they are (default uint8)", [&job](std::size_t i) {
+                 "what they are (default uint8 for an image, float32 for points)",
+                 [&job](std::size_t i) {
                    constexpr std::array kTypes{"u1", "i1", "u2", "i2", "u4", "i4",
                                                "u8", "i8", "f2", "f4", "f8"};
                    raw(job).type = kTypes[i];
                  });
-  options.flag({"--raw-big-endian", kOfRaw}, "the high byte comes first (default: last)",
+  options.flag({"--raw-big-endian", kOfRawNumbers}, "the high byte comes first (default: last)",
                [&job] { raw(job).big_endian = true; });
-  options.value({"--raw-skip", kOfRaw}, "BYTES", "bytes before them: a header (default 0)",
+  options.value({"--raw-skip", kOfRawNumbers}, "BYTES", "bytes before them: a header (default 0)",
                 [&job](const std::string& text) {
                   raw(job).skip = static_cast<std::size_t>(parse_integer("--raw-skip", text, 0));
                 });
 }
 
 void check_image_arguments(Job& job) {
-  if (job.reading.options.raw && job.reading.options.raw->extents.empty())
-    throw Error(ErrorKind::usage, "--raw-type, --raw-big-endian and --raw-skip need --raw-shape");
-  if (job.reading.options.raw && job.reading.format == Format::automatic)
-    job.reading.format = Format::raw;
-  if (job.reading.options.raw && job.reading.format != Format::raw)
-    throw Error(ErrorKind::usage, "--raw-shape: makes sense for --format raw only");
-  if (!job.reading.options.raw && job.reading.format == Format::raw)
-    throw Error(ErrorKind::usage, "--format: found raw, which needs --raw-shape");
-  if (job.reading.options.raw && job.reading.options.raw->big_endian &&
-      job.reading.options.raw->type.ends_with('1'))
+  std::optional<RawLayout>& layout = job.reading.options.raw;
+  if (!layout) {
+    if (job.reading.format == Format::raw)
+      throw Error(ErrorKind::usage, "--format: found raw, which needs --raw-shape or --raw-points");
+    return;
+  }
+  const bool is_cloud = layout->coordinates != 0;
+  if (layout->extents.empty() && !is_cloud)
+    throw Error(ErrorKind::usage,
+                "--raw-type, --raw-big-endian and --raw-skip need --raw-shape or --raw-points");
+  if (!layout->extents.empty() && is_cloud)
+    throw Error(ErrorKind::usage,
+                "--raw-points: cannot be combined with --raw-shape, which reads an image");
+  if (job.reading.format == Format::automatic) job.reading.format = Format::raw;
+  if (job.reading.format != Format::raw)
+    throw Error(ErrorKind::usage, fmt::format("{}: makes sense for --format raw only",
+                                              is_cloud ? "--raw-points" : "--raw-shape"));
+  if (layout->type.empty()) layout->type = is_cloud ? "f4" : "u1";
+  if (layout->big_endian && layout->type.ends_with('1'))
     throw Error(
         ErrorKind::usage,
         "--raw-big-endian: found numbers of one byte, expected a --raw-type of several bytes");

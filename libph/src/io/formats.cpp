@@ -106,7 +106,10 @@ ReadResult nifti_result(const Input& input, const ReadOptions& options) {
 }
 ReadResult raw_result(const Input& input, const ReadOptions& options) {
   if (!options.raw)
-    throw Error(ErrorKind::usage, "format raw: found no layout, expected the layout of the image");
+    throw Error(ErrorKind::usage,
+                "format raw: found no layout, expected the layout of an image or of points");
+  if (options.raw->coordinates != 0)
+    return result_of(read_raw_points(input, *options.raw, options), "raw");
   return result_of(read_raw(input, *options.raw, options), "raw");
 }
 ReadResult perseus_result(const Input& input, const ReadOptions& options) {
@@ -237,7 +240,7 @@ constexpr std::array kFormats{
     FormatInfo{Format::grid, "grid", "an image as text: one row of pixels per line; or a signal",
                "0.5 1.25 2", &grid_result},
     FormatInfo{Format::raw, "raw",
-               "the numbers of an image: \x1eraw_shape\x1f, \x1eraw_type\x1f, \x1eraw_skip\x1f", "",
+               "the numbers of an image (\x1eraw_shape\x1f) or of points (\x1eraw_points\x1f)", "",
                &raw_result},
 };
 

@@ -16,8 +16,9 @@ namespace {
 bool goes_by_blocks(const Input& input, Format format, const ReadOptions& options) {
   switch (format) {
     case Format::nifti:
-    case Format::raw:
       return true;
+    case Format::raw:
+      return options.raw && options.raw->coordinates == 0;
     case Format::npy:
       return detail::guess_array(input, options).meaning == ArrayMeaning::image;
     case Format::dipha:
@@ -100,6 +101,40 @@ Format format_of_text(const Input& input, const ReadOptions& options) {
   return guess.format;
 }
 
+// Refuses bytes that are not text and have no magic number.
+void refuse_bytes(const Input& input) {
+  const std::string hint =
+      fmt::format("{} reads numbers without a header as an image; {} reads them as points",
+                  mark(Setting::raw_shape, "N,M"), mark(Setting::raw_points, "D"));
+  detail::require_text(input, hint);
+  // Form feeds, the end mark of DOS and escape sequences occur in texts. Other control characters
+  // do not.
+  constexpr std::size_t most = 4096;
+  const std::string_view probe = input.text().substr(0, most);
+  const auto* const odd = std::ranges::find_if(probe, [](char c) {
+    return static_cast<unsigned char>(c) < 0x20 &&
+           std::string_view("\t\n\v\f\r\x1A\x1B").find(c) == std::string_view::npos;
+  });
+  if (odd == probe.end()) return;
+  const auto place = static_cast<std::size_t>(odd - probe.begin());
+  input.fail_at_byte(place,
+                     {"not plain text", "a control character, " + printable(probe.substr(place, 1)),
+                      "UTF-8", hint});
+}
+
+// The note on a file that was taken for a triangle of distances because of its name alone. Empty if
+// it cannot hold points of 3 to 5 numbers.
+std::string note_on_triangle(const Input& input) {
+  for (const std::size_t width : {4, 3, 5}) {  // KITTI, x y z, nuScenes
+    const std::size_t each = width * sizeof(float);
+    if (input.size() == 0 || input.size() % each != 0) continue;
+    return fmt::format("a file named .bin: read as distances; {} reads {} points of {} numbers",
+                       mark(Setting::raw_points, fmt::format("{}", width)), input.size() / each,
+                       width);
+  }
+  return {};
+}
+
 // Refuses options that the format of an input does not support.
 void check_part(const Input& input, Format format, const ReadOptions& options) {
   const auto refuse = [&](Setting setting, std::string_view meant_for) {
@@ -107,9 +142,10 @@ void check_part(const Input& input, Format format, const ReadOptions& options) {
                                               mark(setting), meant_for, format_info(format).name));
   };
   const bool is_table = format == Format::points || format == Format::distance ||
-                        format == Format::grid || format == Format::npy || format == Format::npz;
+                        format == Format::grid || format == Format::npy || format == Format::npz ||
+                        (format == Format::raw && options.raw && options.raw->coordinates != 0);
   if (!options.columns.empty() && !is_table)
-    refuse(Setting::columns, "tables of numbers (text, NPY or NPZ)");
+    refuse(Setting::columns, "tables of numbers (text, NPY, NPZ or raw points)");
   if (options.channel != Channel::automatic && format != Format::png)
     refuse(Setting::channel, "PNG pictures");
   if (options.weld && format != Format::off && format != Format::ply)
@@ -176,7 +212,11 @@ ReadResult read_any(const Input& input, Format format, const ReadOptions& option
   inner.dropped = &dropped;
   if (format == Format::automatic) {
     const auto known = detail::format_by_content(input);
+    if (known == Format::points) refuse_bytes(input);
     format = known ? *known : format_of_text(input, inner);
+    if (format == Format::binary)
+      if (const std::string text = note_on_triangle(input); !text.empty())
+        detail::note(inner, text);
   }
   check_part(input, format, options);
   const FormatInfo& info = format_info(format);

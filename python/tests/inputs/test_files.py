@@ -68,6 +68,25 @@ def test_images(tmp_path, dtype):
                                   raw_dtype=">" + dtype), image)
 
 
+def test_points_without_a_header(tmp_path):
+    scan = np.random.default_rng(0).random((30, 4)).astype("f4")
+    scan.tofile(tmp_path / "v.bin")
+    assert np.array_equal(ph.read(tmp_path / "v.bin", raw_points=4), scan)
+    assert np.array_equal(ph.read(tmp_path / "v.bin", raw_points=4, columns=["1-3"]), scan[:, :3])
+    scan.astype(">f8").tofile(tmp_path / "w.bin")
+    assert np.array_equal(ph.read(tmp_path / "w.bin", raw_points=4, raw_dtype=">f8"), scan)
+    assert ph.read(tmp_path / "v.bin").shape == (16, 16), "also a triangle of distances"
+    for wrong, words in (({"raw_points": 0}, "raw_points"), ({"raw_points": 4, "raw_shape": (120,)}, "raw_shape"),
+                         ({"raw_points": 4, "format": "points"}, "found format 'points'")):
+        with pytest.raises(ph.UsageError, match=words):
+            ph.read(tmp_path / "v.bin", **wrong)
+    with pytest.raises(ph.DataError, match="truncated point"):
+        ph.read(tmp_path / "v.bin", raw_points=7)
+    (tmp_path / "x.raw").write_bytes(b"\1\2\3")
+    with pytest.raises(ph.DataError, match="raw_shape N,M.*raw_points D"):
+        ph.read(tmp_path / "x.raw")
+
+
 def test_the_note_on_columns_is_valid_python(tmp_path, caplog):
     path = write(tmp_path, "c.csv", "x,y,z,ring\n1,2,3,4\n5,6,7,8\n")
     with caplog.at_level("INFO", logger="libph"):
@@ -129,6 +148,23 @@ def test_meshes(tmp_path):
     values = write(tmp_path, "v.txt", "0\n1\n2\n3\n")
     mesh = ph.read(path, values=values)
     assert list(ph.lower_star(mesh.values, np.unique(mesh.triangles, axis=0))) == [(0, 0, np.inf)]
+
+
+def test_meshes_with_seams(tmp_path, caplog):
+    text = ("OFF\n6 2 0\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n0 1 0\n1 0 0\n3 0 1 2\n3 3 4 5\n")
+    path, values = write(tmp_path, "m.off", text), write(tmp_path, "v.txt", "0\n1\n2\n3\n2\n1\n")
+    with caplog.at_level("INFO", logger="libph"):
+        split = ph.read(path, values=values)
+    assert len(split.vertices) == 6 and "not connected; weld joins them" in caplog.text
+    assert len(ph.lower_star(split.values, split.triangles).dgm(0)) == 2
+    mesh = ph.read(path, values=values, weld=True)
+    assert mesh.vertices.tolist() == [[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0]]
+    assert list(ph.lower_star(mesh.values, mesh.triangles)) == [(0, 0, np.inf)]
+    write(tmp_path, "v.txt", "0\n1\n2\n3\n9\n1\n")
+    with pytest.raises(ph.DataError, match="values 2 of vertex 2 and 9 of vertex 4"):
+        ph.read(path, values=values, weld=True)
+    with pytest.raises(ph.UsageError, match="weld"):
+        ph.read(write(tmp_path, "p.txt", "0 1\n"), weld=True)
 
 
 def test_files_that_are_refused(tmp_path):

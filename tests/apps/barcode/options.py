@@ -147,6 +147,30 @@ class Options(ProgramTest):
                 (("volume.raw", "--raw-shape", "2,,3"), 64, "--raw-shape")):
             self.assertIn(what, self.expect(code, *arguments).stderr)
 
+    def test_raw_points(self):
+        points = [(0.5, 0, 7, 0.25), (3.5, 4, 7, 0.5), (0.5, 1, 7, 0.75)]
+        scan = [x for point in points for x in point]
+        self.write("scan.bin", struct.pack("<12f", *scan))
+        self.write("deep.bin", b"header" + struct.pack(">12d", *scan))
+        self.write("points.txt", "".join(f"{x} {y} {z}\n" for x, y, z, _ in points).encode())
+        wanted = self.bars("points.txt")
+        self.assertEqual(self.bars("scan.bin", "--raw-points", "4", "--columns", "1-3"), wanted)
+        self.assertEqual(self.bars("deep.bin", "--raw-points", "4", "--columns", "1-3", "--raw-skip", "6",
+                                   "--raw-type", "float64", "--raw-big-endian"), wanted)
+        self.assertEqual(len(self.bars("scan.bin", "--raw-points", "4")), 3)
+        for arguments, code, what in (
+                (("--raw-points", "5"), 65, "byte 40: truncated point, found 8 of its bytes, expected 20"),
+                (("--raw-points", "0"), 64, "--raw-points"),
+                (("--raw-points", "4", "--columns", "5"), 64, "--columns"),
+                (("--raw-points", "4", "--raw-shape", "12"), 64, "--raw-points"),
+                (("--raw-points", "4", "--format", "npy"), 64, "--format raw"),
+                (("--raw-type", "float32"), 64, "--raw-points"), (("--format", "raw"), 64, "--raw-points"),
+                (("--raw-points", "4", "--raw-type", "uint8", "--raw-big-endian"), 64, "one byte")):
+            self.assertIn(what, self.expect(code, "scan.bin", *arguments).stderr)
+        self.write("triangle.bin", struct.pack("<120f", *range(120)))
+        note = self.expect(0, "triangle.bin").stderr
+        self.assertIn("read as distances; --raw-points 4 reads 30 points of 4 numbers", note)
+
     def test_meshes_with_seams(self):
         # The two triangles of a square, each with its own vertices.
         self.write("square.off", b"OFF\n6 2 0\n0 0 0\n1 0 0\n0 1 0\n0 1 0\n1 0 0\n1 1 0\n"

@@ -176,7 +176,7 @@ def inputs(Input, program):
         if threshold is not None and name not in LISTED:  # the input is an image
             given["--complex"] = row("--complex", "rips", unfit=POINTS, lost="read as an image")
         # With these options, the format is not reported.
-        if {"--format", "--raw-shape"} & set(arguments):
+        if {"--format", "--raw-shape", "--raw-points"} & set(arguments):
             given["--quiet"] = row("--quiet", lost="ph-barcode: ",
                                    beside=["-o", "x.csv", "--output-format", "none"])
         if name in RIPS:
@@ -270,6 +270,9 @@ def inputs(Input, program):
         nan=files.nifti("<f4", (3, 3, 3), [math.nan, *volume[1:]]))
     words = struct.pack("<20H", *(random.randrange(60000) for _ in range(20)))
     add("raw", ["i.raw", "--raw-shape", "4,5", "--raw-type", "uint16"], {"i.raw": words}, 30000)
+    add("raw points", ["p.bin", "--raw-points", "2", "--raw-type", "float64"],
+        {"p.bin": struct.pack(f"<{2 * size}d", *flat)},
+        nan=struct.pack(f"<{2 * size}d", math.nan, *flat[1:]), empty=b"")
     add("Perseus", ["i.perseus"],
         {"i.perseus": ("2\n6\n5\n" + "\n".join(map(str, floats)) + "\n").encode()}, 4,
         rows={"--construction": (("--construction", "cells"), {})})

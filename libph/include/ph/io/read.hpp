@@ -97,12 +97,14 @@ inline constexpr std::array names_of<Channel>{
     Named{Channel::green, "green"},    Named{Channel::blue, "blue"}, Named{Channel::alpha, "alpha"},
 };
 
-/// The layout of an image in a file that does not describe it.
+/// The layout of an image or of points in a file that does not describe it.
 struct RawLayout {
-  std::vector<Index> extents = {};  ///< sizes of the axes, the last one fastest
+  std::vector<Index> extents = {};  ///< sizes of the axes of an image, the last one fastest
   std::string type = "u1";          ///< as in NumPy: u1 u2 u4 u8 i1 i2 i4 i8 f2 f4 f8
   bool big_endian = false;          ///< the high byte comes first
-  std::size_t skip = 0;             ///< bytes before the first voxel
+  std::size_t skip = 0;             ///< bytes before the first number
+  /// Numbers per point, if the file holds points; 0 for an image. Points have no extents.
+  Index coordinates = 0;
 };
 
 /// Settings of the readers. The defaults refuse doubtful input, with an error that names the
@@ -196,6 +198,11 @@ Image read_nifti(const Input& input, const ReadOptions& options = {});
 /// The numbers of an image, one per voxel; apart from the bytes to skip, the file must hold nothing
 /// else. @throws also Error (usage) on a layout without axes or with an unknown type.
 Image read_raw(const Input& input, const RawLayout& layout, const ReadOptions& options = {});
+/// Points without a header, layout.coordinates numbers each, as in the files of KITTI; apart from
+/// the bytes to skip, the file must hold nothing else. options.columns chooses among these numbers.
+/// @throws also Error (usage) on a layout without coordinates, with extents or with an unknown type.
+Points read_raw_points(const Input& input, const RawLayout& layout,
+                       const ReadOptions& options = {});
 
 /// An image with a list of the axes that close up on themselves.
 struct PerseusImage {

@@ -157,26 +157,29 @@ DistanceMatrix read_upper_distances(const Input& input, const ReadOptions& optio
 
 DistanceMatrix read_binary_distances(const Input& input, const ReadOptions& options) {
   if (input.size() == 0) return detail::no_points(input, options);
+  // Points are often in files with the same extension, for example those of laser scanners.
+  const std::string way_to_points = mark(Setting::raw_points, "D") + " reads points";
   const std::size_t count = input.size() / sizeof(float);
   const auto points = points_of_pairs(count);
   if (input.size() % sizeof(float) != 0 || !points) {
-    input.fail({"truncated or not a triangle",
-                fmt::format("{} bytes", input.size()),
-                "4 n(n-1)/2 bytes: float32, little endian, the lower triangle",
-                {}});
+    input.fail({"truncated or not a triangle", fmt::format("{} bytes", input.size()),
+                "4 n(n-1)/2 bytes: float32, little endian, the lower triangle", way_to_points});
   }
+  const auto fail = [&](std::size_t byte, Fault fault) {
+    fault.hint = (fault.hint.empty() ? "" : fault.hint.marked() + "; ") + way_to_points;
+    input.fail_at_byte(byte, fault);
+  };
   input.require_memory(count * sizeof(double));
   std::vector<double> pairs(count);
   detail::MatrixEntries entries(options);
   for (std::size_t k = 0; k < count; ++k) {
     const std::size_t byte = k * sizeof(float);
     const auto raw = load<float>(input.bytes().data() + byte, std::endian::little);
-    pairs[k] = entries.distance(double{raw}, {1, 0, byte},
-                                [&](const Fault& fault) { input.fail_at_byte(byte, fault); });
+    pairs[k] =
+        entries.distance(double{raw}, {1, 0, byte}, [&](const Fault& fault) { fail(byte, fault); });
   }
-  entries.finish([&](const detail::EntryPlace& place, const Fault& fault) {
-    input.fail_at_byte(place.byte, fault);
-  });
+  entries.finish(
+      [&](const detail::EntryPlace& place, const Fault& fault) { fail(place.byte, fault); });
   return DistanceMatrix(static_cast<Index>(*points), std::move(pairs));
 }
 

@@ -126,28 +126,35 @@ const char* start_of_comment(const char* begin, const char* end) {
 
 }  // namespace
 
-TextLines::TextLines(const Input& input) : TextLines(input, 0, 0) {
+namespace detail {
+
+void require_text(const Input& input, std::string_view hint) {
   const std::string_view probe = input.text().substr(0, kProbe);
   const std::string_view mark = probe.substr(0, 2);
-  const std::size_t nul = probe.find('\0');
   // The hint names no option, because programs that only read clouds have no --format.
-  const std::string hint = "save it as UTF-8";
-  if (const auto foreign = detail::foreign_kind(input.text())) {
+  const std::string to_utf8 = "save it as UTF-8";
+  if (const auto foreign = foreign_kind(input.text())) {
     input.fail_at_byte(
         0, {"not plain text", std::string(foreign->name), "UTF-8", std::string(foreign->advice)});
   }
   if (mark == "\xFF\xFE" || mark == "\xFE\xFF") {
-    input.fail_at_byte(0, {"not plain text", "a UTF-16 byte order mark", "UTF-8", hint});
+    input.fail_at_byte(0, {"not plain text", "a UTF-16 byte order mark", "UTF-8", to_utf8});
   }
-  if (nul != std::string_view::npos) {
-    const std::size_t odd = static_cast<std::size_t>(std::count(probe.begin(), probe.end(), '\0'));
-    const bool utf16 = nul < 2 && odd * 3 > probe.size() && odd * 3 < probe.size() * 2 &&
-                       std::all_of(probe.begin(), probe.end(),
-                                   [](char c) { return static_cast<unsigned char>(c) < 0x80; });
-    input.fail_at_byte(nul, {"not plain text", utf16 ? "NUL bytes as in UTF-16" : "a NUL byte",
-                             "UTF-8", utf16 ? hint : "is this a binary file of another format?"});
-  }
-  if (probe.substr(0, 3) == "\xEF\xBB\xBF") position_ += 3;
+  const std::size_t nul = probe.find('\0');
+  if (nul == std::string_view::npos) return;
+  const auto nuls = static_cast<std::size_t>(std::ranges::count(probe, '\0'));
+  const bool utf16 =
+      nul < 2 && nuls * 3 > probe.size() && nuls * 3 < probe.size() * 2 &&
+      std::ranges::all_of(probe, [](char c) { return static_cast<unsigned char>(c) < 0x80; });
+  input.fail_at_byte(nul, {"not plain text", utf16 ? "NUL bytes as in UTF-16" : "a NUL byte",
+                           "UTF-8", utf16 ? to_utf8 : std::string(hint)});
+}
+
+}  // namespace detail
+
+TextLines::TextLines(const Input& input) : TextLines(input, 0, 0) {
+  detail::require_text(input, "is this a binary file of another format?");
+  if (input.text().starts_with("\xEF\xBB\xBF")) position_ += 3;
 }
 
 TextLines::TextLines(const Input& input, std::size_t offset, std::size_t lines_before)

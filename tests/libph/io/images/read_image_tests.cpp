@@ -227,6 +227,52 @@ TEST(ReadRaw, NumbersBehindAHeader) {
       fails_with(ErrorKind::usage, [&] { read_any(Input::view(bytes, "a"), Format::raw); }));
 }
 
+TEST(ReadRaw, PointsWithoutAHeader) {
+  std::string bytes = "head";
+  for (const float number : {0.5F, 1.0F, -2.0F, 0.25F, 3.0F, 4.0F, 5.0F, 0.75F})
+    bytes += le(number);
+  const auto read = [&](const RawLayout& layout, const ReadOptions& options = {}) {
+    return read_raw_points(Input::view(bytes, "v.bin"), layout, options);
+  };
+  const RawLayout four{.type = "f4", .skip = 4, .coordinates = 4};
+  EXPECT_EQ(read(four), (Points{{0.5, 1, -2, 0.25}, {3, 4, 5, 0.75}}));
+  EXPECT_EQ(read(four, {.columns = {"1-3"}}), (Points{{0.5, 1, -2}, {3, 4, 5}}));
+  ReadOptions options{.columns = {"4"}, .raw = four};
+  const ReadResult any = read_any(Input::view(bytes, "v.bin"), Format::raw, options);
+  EXPECT_EQ(any.description, "2 points in R^1, raw");
+  EXPECT_TRUE(contains(bad_data([&] { read({.type = "f4", .coordinates = 4}); }),
+                       "byte 32: truncated point, found 4 of its bytes, expected 16"));
+  bytes += le(std::nanf("")) + bytes.substr(4, 12);
+  EXPECT_TRUE(contains(bad_data([&] { read(four); }), "coordinate 0 of point 2, found NaN"));
+  EXPECT_EQ(read(four, {.nan = NanPolicy::drop}).rows(), 2);
+  for (const RawLayout& layout :
+       {RawLayout{.type = "f4"}, RawLayout{.type = "f3", .coordinates = 4},
+        RawLayout{.extents = {2}, .type = "f4", .coordinates = 4},
+        RawLayout{.type = "f4", .coordinates = -1}})
+    EXPECT_TRUE(fails_with(ErrorKind::usage, [&] { read(layout); }));
+  EXPECT_TRUE(fails_with(ErrorKind::usage, [&] {
+    read_raw(Input::view(bytes, "v.bin"), {.extents = {2}, .coordinates = 1});
+  }));
+}
+
+TEST(ReadRaw, PointsThatPassForATriangleOfDistances) {
+  std::string bytes;
+  for (int i = 0; i < 120; ++i) bytes += le(static_cast<float>(i));
+  const auto read = [&] { return read_any(Input::view(bytes, "v.bin"), Format::automatic); };
+  const ReadResult result = read();
+  EXPECT_EQ(std::get<DistanceMatrix>(result.data).size(), 16);
+  ASSERT_EQ(result.notes.size(), 1U);
+  EXPECT_EQ(result.notes[0].str(),
+            "a file named .bin: read as distances; raw_points 4 reads 30 points of 4 numbers");
+  EXPECT_TRUE(read_any(Input::view(bytes, "v.bin"), Format::binary).notes.empty());
+  bytes.replace(8, 4, le(-3.0F));
+  EXPECT_TRUE(contains(bad_data(read), "byte 8: negative distance"));
+  EXPECT_TRUE(contains(bad_data(read), "raw_points D reads points"));
+  bytes.resize(464);
+  EXPECT_TRUE(contains(bad_data(read), "truncated or not a triangle"));
+  EXPECT_TRUE(contains(bad_data(read), "raw_points D reads points"));
+}
+
 TEST(ReadClouds, XyzAndPts) {
   ReadResult xyz = read_any(Input::view("1 2 3 255 0 0\n4 5 6 0 0 7\nnan 1 1 0 0 0\n", "a.xyzrgb"));
   EXPECT_EQ(xyz.format, Format::xyz);

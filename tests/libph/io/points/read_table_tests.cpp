@@ -116,6 +116,16 @@ TEST(ReadTable, ANumberOfRowsBeforeTheRowsIsChecked) {
   EXPECT_TRUE(contains(message("4\n" + square), "t.csv:1:1: number of rows, found 4, expected 3"));
 }
 
+TEST(ReadTable, BytesWithoutAHeaderNameTheRawOptions) {
+  for (const std::string& bytes : {std::string("\1\2\3\4\5\6"), std::string("\x40\0\0\x80", 4)}) {
+    const std::string message =
+        bad_data([&] { read_any(Input::view(bytes, "x.raw"), Format::automatic); });
+    EXPECT_TRUE(contains(message, "not plain text")) << message;
+    EXPECT_TRUE(contains(message, "raw_shape") && contains(message, "raw_points")) << message;
+  }
+  EXPECT_EQ(std::get<Points>(any("# page\f\n1 2\n3 4\n").data).rows(), 2);
+}
+
 TEST(ReadTable, ChoosesColumns) {
   const std::string text = "name,x,2,y\na,1,2,3\nb,4,5,6\n";
   const auto points = [&](std::vector<std::string> columns) {

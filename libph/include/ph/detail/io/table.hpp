@@ -139,6 +139,10 @@ struct ForeignKind {
 /// Recognises a file by its first bytes, and STL also by its size; empty if it is unknown.
 std::optional<ForeignKind> foreign_kind(std::string_view bytes);
 
+/// @throws Error (bad_data) if the first bytes are not text in UTF-8. @param hint advice for bytes of
+/// an unknown kind.
+void require_text(const Input& input, std::string_view hint);
+
 /// @throws Error (usage) if options.columns were given for an input without columns to choose.
 void refuse_columns(const ReadOptions& options, std::string_view found);
 
