@@ -8,13 +8,14 @@ from __future__ import annotations
 import math
 import os
 import sys
+import warnings
 from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
-from . import _core
+from . import _core, _options
 from ._errors import DataError, MemoryLimitError, UsageError
 
 _LARGEST = 2**53  # all whole numbers up to this one are doubles
@@ -23,7 +24,8 @@ _WORDS = {"c": "complex numbers, expected real ones; take .real or abs()",
           "M": "dates, expected numbers", "m": "times, expected numbers; divide by a unit",
           "U": "text, expected numbers; .astype(float) reads it",
           "S": "bytes, expected numbers; .astype(float) reads them",
-          "V": "records of several fields, expected numbers; choose the fields"}
+          "V": "records of several fields, expected numbers; "
+               "numpy.lib.recfunctions.structured_to_unstructured makes an array of them"}
 
 
 def place_of(index: Sequence[int]) -> str:
@@ -218,16 +220,64 @@ def is_aligned(array: NDArray[Any]) -> bool:
 
 
 def as_points(data: Any, name: str = "X") -> NDArray[np.float64]:
-    """Points, one per row."""
+    """Points, one per row. The fields x, y and z of a structured array, or all its fields if they are
+    floats, are coordinates."""
+    if isinstance(data, np.ndarray) and data.dtype.names is not None:
+        data = _fields_of(data, name)
     array = as_array(data, name)
     if array.ndim != 2:
         if array.size == 0 and array.ndim == 1:
             return np.empty((0, 0))
         hint = {0: "", 1: "; .reshape(-1, 1) makes each number a point, metric='precomputed' "
                           "reads condensed distances"}.get(array.ndim, "; ph.cubical takes images")
+        if array.ndim == 3 and array.shape[2] == 3:
+            hint = "; .reshape(-1, 3) makes points of an organised cloud" + hint
         raise UsageError(f"{name}: found an array of shape {array.shape}, expected (points, "
                          f"coordinates){hint}")
+    _warn_of_columns(data, array, name)
     return as_float64(array, name)
+
+
+def _fields_of(data: NDArray[Any], name: str) -> NDArray[np.float64]:
+    """The coordinates in a structured array, such as the vertices of a RealSense camera."""
+    names = list(data.dtype.names or ())
+    fields = [field for axis in "xyz" for field in names if field.lower() == axis]
+    if [field.lower() for field in fields] != ["x", "y", "z"]:
+        fields = names
+        if not all(data.dtype[field].kind == "f" for field in fields):
+            raise DataError(f"{name}: found records of the fields {', '.join(names)}, expected fields "
+                            "x, y and z, or only floats; "
+                            "numpy.lib.recfunctions.structured_to_unstructured makes points of the "
+                            "fields that you choose")
+    return np.stack([np.asarray(data[field], dtype=np.float64).ravel() for field in fields], axis=1)
+
+
+def _warn_of_columns(data: Any, points: NDArray[Any], name: str) -> None:
+    """Warns of columns that are probably not coordinates: columns of a data frame beside x and y, or
+    whole numbers beside three columns of fractions."""
+    names = [str(column) for column in getattr(data, "columns", ())]
+    axes = [column for column in names if column.lower() in ("x", "y", "z")]
+    found = [column.lower() for column in axes]
+    others = [column for column in names if column not in axes]
+    if others and found in (["x", "y"], ["x", "y", "z"]):
+        shown = others if len(others) <= 3 else [*others[:2], f"{len(others) - 2} more"]
+        _warn(f"{name}: read {' and '.join([', '.join(shown[:-1]), shown[-1]] if shown[1:] else shown)} "
+              f"as {'a coordinate' if len(others) == 1 else 'coordinates'}; {name}[{axes}] leaves "
+              f"{'it' if len(others) == 1 else 'them'} out")
+    rows, columns = points.shape
+    if names or rows < 8 or not 3 < columns <= 7 or points.dtype.kind != "f":
+        return
+    with np.errstate(invalid="ignore"):
+        whole = [bool((np.floor(points[:, k]) == points[:, k]).all()) for k in range(columns)]
+    if whole == [k >= 3 for k in range(columns)]:
+        which = "column 3 has" if columns == 4 else f"columns 3 to {columns - 1} have"
+        _warn(f"{name}: {which} only whole numbers, unlike the first three, and "
+              f"{'is read as a coordinate' if columns == 4 else 'are read as coordinates'}; "
+              f"{name}[:, :3] leaves {'it' if columns == 4 else 'them'} out")
+
+
+def _warn(text: str) -> None:
+    warnings.warn(text, UserWarning, stacklevel=_options.user_level())
 
 
 def as_distances(data: Any, name: str = "X") -> NDArray[Any]:
@@ -247,6 +297,7 @@ def as_image(data: Any, name: str = "image") -> NDArray[Any]:
     array = as_array(data, name)
     if not 1 <= array.ndim <= 8:
         raise UsageError(f"{name}: found an array of shape {array.shape}, expected 1 to 8 axes")
+    _warn_of_colours(array, name)
     kind, size = array.dtype.kind, array.dtype.itemsize
     if kind == "b":
         return array.view(np.uint8)
@@ -259,6 +310,18 @@ def as_image(data: Any, name: str = "image") -> NDArray[Any]:
     if (kind, size) == ("f", 2):
         return _copied(array, np.float32, name)
     return as_float64(array, name)
+
+
+def _warn_of_colours(array: NDArray[Any], name: str) -> None:
+    """Warns of an array that may be a colour picture: three axes, the last one with 3 or 4 entries,
+    bytes or numbers from 0 to 1."""
+    if array.ndim != 3 or array.shape[2] not in (3, 4) or min(array.shape[:2]) < 16:
+        return
+    with np.errstate(invalid="ignore"):
+        is_share = array.dtype.kind == "f" and bool(((array >= 0) & (array <= 1)).all())
+    if array.dtype == np.uint8 or is_share:
+        _warn(f"{name}: read as a volume of {' x '.join(map(str, array.shape))} voxels; if it is a "
+              f"picture with {array.shape[2]} channels, take one channel, {name}[..., 0]")
 
 
 def as_values(data: Any, name: str, count: int | None = None, of: str = "number"

@@ -84,7 +84,7 @@ BAD = [
     *[(f"points of {kind}", ph.rips, (np.zeros((3, 2), kind),), {}, words)
       for kind, words in (("complex128", "complex"), ("complex64", "complex"), ("U3", "text"),
                           ("S3", "bytes"), ("M8[s]", "dates"), ("m8[s]", "times"),
-                          ([("x", "f8"), ("y", "f8")], "records"), ("V8", "records"))],
+                          ([("x", "f8"), ("id", "i4")], "records"), ("V8", "records"))],
     *[(f"an image of {kind}", ph.cubical, (np.zeros((3, 2), kind),), {}, words)
       for kind, words in (("complex128", "complex"), ("U3", "text"), ("M8[D]", "dates"),
                           ([("x", "f8")], "records"))],

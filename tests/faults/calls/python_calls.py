@@ -85,7 +85,7 @@ CALLS = [(room, *row) for room, rows in {
         ("ph.rips(POINTS.astype('S'))", "DataError", "X: found bytes"),
         ("ph.rips(np.zeros((3, 2), 'M8[s]'))", "DataError", "X: found dates"),
         ("ph.rips(np.zeros((3, 2), 'm8[s]'))", "DataError", "X: found times"),
-        ("ph.rips(np.zeros(3, [('x', float), ('y', float)]))", "DataError", "X: found records"),
+        ("ph.rips(np.zeros(3, [('x', float), ('id', int)]))", "DataError", "X: found records"),
         ("ph.rips(np.array([[1, 2], [3, None]], object))", "DataError", "point 1, coordinate 1: found nan"),
         ("ph.rips(np.array([[1, 2], [3, 'x']], object))", "DataError", "row 1, column 1: found str"),
         ("ph.rips(np.array([[1, 2], [3, [4]]], object))", "DataError", "row 1, column 1: found list"),
