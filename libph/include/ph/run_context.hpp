@@ -118,8 +118,8 @@ struct RunContext {
   mutable std::chrono::steady_clock::time_point last_report_ = std::chrono::steady_clock::now();
 };
 
-/// A context without limits, progress reports or stop requests, for functions that were given no
-/// context.
+/// The context of functions that were given none. Its memory limit is nine tenths of the memory of
+/// the machine or container, as in the programs. It reports no progress and is never stopped.
 const RunContext& default_context();
 
 /// Counts the steps of a stage, and polls and reports now and then. A ticker whose stage has no

@@ -9,6 +9,7 @@
 
 #include "libph/src/core/system/pages.hpp"
 #include "ph/detail/core/format_size.hpp"
+#include "ph/detail/core/machine_memory.hpp"
 #include "ph/error.hpp"
 
 namespace ph {
@@ -96,7 +97,10 @@ void RunContext::report(const Progress& progress) const {
 }
 
 const RunContext& default_context() {
-  static const RunContext context;
+  // Without a limit, a lack of memory would end in std::bad_alloc or in the death of the process.
+  static const struct Limited : RunContext {
+    Limited() { memory.set_limit(machine_memory()); }
+  } context;
   return context;
 }
 

@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "ph/custom.hpp"
+#include "ph/detail/core/machine_memory.hpp"
 #include "tests/support/expect_error.hpp"
 #include "tests/support/generators.hpp"
 #include "tests/support/known_spaces.hpp"
@@ -20,6 +21,15 @@ namespace ph::test {
 namespace {
 
 // ---- memory
+
+TEST(MemoryBudgets, WithoutAContextTheMachineIsTheLimit) {
+  MemoryBudget& budget = default_context().memory;
+  EXPECT_EQ(budget.limit(), machine_memory());
+  if (machine_memory() > SIZE_MAX / 4) GTEST_SKIP() << "the system does not report its memory";
+  std::pmr::vector<double> numbers(&budget);
+  expect_error(ErrorKind::resource, "memory limit",
+               [&] { numbers.resize(machine_memory() / sizeof(double) + 1); });
+}
 
 TEST(MemoryBudgets, CountAndRefuse) {
   MemoryBudget budget(1000);
