@@ -23,7 +23,7 @@ def main(picture):
     figure, (left, right) = plt.subplots(1, 2, figsize=(8, 3.6), layout="constrained")
     left.scatter(*points.T, s=1, color="C0")
     left.set(aspect="equal", xlabel="x", ylabel="y", title="3000 points")
-    bars.plot(dim=1, ax=right, noise=4 * ph.confidence_radius(points))
+    bars.plot(dims=1, ax=right, noise=4 * ph.confidence_radius(points))
     real = bars.dgm(1)[ph.p_values(bars, 1) <= 0.05]
     right.scatter(*real.T, s=90, facecolors="none", edgecolors="black", label="p ≤ 0.05")
     right.set_title("loops, and what noise explains")

@@ -56,8 +56,10 @@ def test_plot_of_one_dimension(kind):
     from matplotlib.figure import Figure
     bars = ph.rips(CIRCLE)
     for dim, labels in ((1, ["H1"]), ([0, 1], ["H0", "H1"]), (None, ["H0", "H1"])):
-        ax = bars.plot(kind, ax=Figure().add_subplot(), dim=dim)
+        ax = bars.plot(kind, ax=Figure().add_subplot(), dims=dim)
         assert [text.get_text() for text in ax.get_legend().get_texts()] == labels
+    with pytest.raises(ph.UsageError, match=r"dim: .*did you mean dims=1\?"):
+        bars.plot(kind, ax=Figure().add_subplot(), dim=1)
 
 
 def test_plot_makes_a_figure_of_its_own():

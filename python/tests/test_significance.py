@@ -168,7 +168,7 @@ def test_noise_in_a_diagram(rng):
     matplotlib.use("agg")
     import matplotlib.pyplot as plt
     bars = ph.rips(noisy_circle(rng))
-    ax = bars.plot(dim=1, noise=0.3)
+    ax = bars.plot(dims=1, noise=0.3)
     low, high = ax.collections[0].get_paths()[0].vertices[:, 1].min(), bars.dgm(1).max()
     assert math.isclose(low, bars.dgm(1).min()) and math.isclose(
         ax.collections[0].get_paths()[0].vertices[:, 1].max(), high + 0.3)

@@ -307,7 +307,7 @@ class Barcode(Cells, Summaries, Sequence[Bar]):
                  None if format is None else str(format), origin_of(self.meta), options={})
 
     def plot(self, kind: str = "diagram", ax: Axes | None = None, *,
-             dim: int | Iterable[int] | None = None, noise: float | None = None,
+             dims: int | Iterable[int] | None = None, noise: float | None = None,
              **style: Any) -> Axes:
         """Draws the barcode with matplotlib.
 
@@ -321,7 +321,7 @@ class Barcode(Cells, Summaries, Sequence[Bar]):
             numbers over the filtration value.
         ax : Axes, optional
             The axes to draw on. Default: the axes of a new figure.
-        dim : int or iterable of int, optional
+        dims : int or iterable of int, optional
             Show only these dimensions. Default: all.
         noise : float, optional
             For a diagram: draws a grey band along the diagonal that covers bars of at most this
@@ -334,7 +334,7 @@ class Barcode(Cells, Summaries, Sequence[Bar]):
         Axes
         """
         from ._plots import plot
-        return plot(self if dim is None else self.filter(dim=dim), kind, ax, noise, style)
+        return plot(self, kind, ax, dims, noise, style)
 
     def report(self, X: Any = None, *, title: str = "", **options: Any) -> Report:
         """An interactive page that links diagram, barcode and data.

@@ -16,9 +16,13 @@ if TYPE_CHECKING:
     from ._barcode import Barcode
 
 
-def plot(bars: Barcode, kind: Any, ax: Axes | None, noise: float | None, style: dict[str, Any]
-         ) -> Axes:
+def plot(bars: Barcode, kind: Any, ax: Axes | None, dims: Any, noise: float | None,
+         style: dict[str, Any]) -> Axes:
     """See `Barcode.plot`."""
+    if "dim" in style:
+        raise UsageError(f"dim: plot has no such keyword; did you mean dims={style['dim']!r}?")
+    if dims is not None:
+        bars = bars.filter(dim=dims)
     draw = {"diagram": _diagram, "barcode": _lines, "betti": _betti}[
         _options.choice("kind", kind, ["diagram", "barcode", "betti"])]
     if ax is None:
