@@ -15,7 +15,7 @@ from .. import _core, _options, _run
 from .._errors import UsageError
 from .._results import Meta, origin_of, require_version, with_arrays
 from .._vectors import Summaries
-from . import _output
+from . import _layouts, _output
 from ._cells import Cells
 
 if TYPE_CHECKING:
@@ -77,9 +77,49 @@ class Barcode(Cells, Summaries, Sequence[Bar]):
     _values: _Arrays | None  # filled on first use
     meta: Mapping[str, Any]
 
-    def __init__(self) -> None:
-        raise TypeError("a Barcode cannot be constructed directly; ph.rips, ph.cubical and the "
-                        "like, and ph.read_barcode return one")
+    def __init__(self, *_: Any) -> None:
+        raise TypeError("a Barcode cannot be constructed directly; ph.Barcode.from_dgms takes the "
+                        "arrays of other packages, ph.rips, ph.cubical and the like compute one, "
+                        "and ph.read_barcode reads one")
+
+    @classmethod
+    def from_dgms(cls, dgms: Any, layout: str | None = None) -> Barcode:
+        """The barcode of diagrams that another package computed.
+
+        It has neither cells nor representatives, and `meta` does not state how it was computed.
+
+        Parameters
+        ----------
+        dgms : list or array_like
+            One of the layouts of `to_numpy`.
+        layout : {None, "ripser", "dim-birth-death", "giotto", "gudhi"}
+            "ripser": one array of rows birth, death per dimension, as `dgms` of ripser.py, or
+            ``[tree.persistence_intervals_in_dimension(d) for d in (0, 1)]`` of GUDHI.
+            "dim-birth-death" and "giotto": an array (n, 3) of rows dim, birth, death or birth,
+            death, dim. "gudhi": a list of (dim, (birth, death)), as `persistence()` of GUDHI.
+            Default: the layout is recognised. Rows that fit both layouts of (n, 3) are refused.
+
+        Returns
+        -------
+        Barcode
+
+        Raises
+        ------
+        UsageError
+            If the layout cannot be recognised.
+        DataError
+            If a number is NaN, a bar dies before its birth, or a dimension is not a whole number.
+
+        Examples
+        --------
+        >>> bars = ph.Barcode.from_dgms([[[0, 1], [0, np.inf]], [[1, 1.5]]])
+        >>> bars
+        Barcode(barcode, field 2: 2 bars of H0, 1 of H1, longest [1, 1.5))
+        >>> ph.Barcode.from_dgms(bars.to_numpy("giotto")) == bars
+        True
+        """
+        dims, births, deaths, max_dim = _layouts.from_layout(dgms, layout)
+        return cls._made(_core.Bars.of(dims, births, deaths), {"max_dim": max_dim})
 
     @classmethod
     def _of(cls, bars: _core.Bars, meta: Mapping[str, Any]) -> Barcode:
@@ -283,9 +323,10 @@ class Barcode(Cells, Summaries, Sequence[Bar]):
             "dim-birth-death": rows dim, birth, death. "giotto": rows birth, death, dim, as in
             giotto-tda. "ripser": a list of arrays as in ripser.py, with H0 sorted by death and
             other dimensions by descending birth. "gudhi": a list of (dim, (birth, death)) as in
-            GUDHI, with dimensions descending and the longest bars first.
+            GUDHI, with dimensions descending and the longest bars first. `from_dgms` takes all of
+            them.
         """
-        return _output.in_layout(self, layout)
+        return _layouts.in_layout(self, layout)
 
     def to_pandas(self) -> pandas.DataFrame:
         """A table with the columns dim, birth, death."""

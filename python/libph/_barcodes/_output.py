@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Barcodes in the layouts of other programs, and as text."""
+"""Barcodes as text, and the lengths of bars."""
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .. import _options
 from .._results import description_of, spaced
 
 if TYPE_CHECKING:
@@ -19,22 +18,6 @@ def lengths(births: NDArray[np.float64], deaths: NDArray[np.float64]) -> NDArray
     lengths = np.zeros(len(births))
     np.subtract(deaths, births, out=lengths, where=deaths != births)
     return lengths
-
-
-def in_layout(bars: Barcode, layout: str) -> Any:
-    """See `Barcode.to_numpy`."""
-    _options.choice("layout", layout, ["dim-birth-death", "giotto", "ripser", "gudhi"])
-    dims, births, deaths = bars._arrays
-    if layout == "giotto":
-        return np.column_stack([births, deaths, dims])
-    if layout == "ripser":
-        dgms = bars.dgms()
-        return [dgm[np.lexsort((-dgm[:, 1], -dgm[:, 0]) if dim else (dgm[:, 0], dgm[:, 1]))]
-                for dim, dgm in enumerate(dgms)]
-    if layout == "gudhi":
-        order = np.lexsort((births, -lengths(births, deaths), -dims))
-        return [(int(dims[i]), (float(births[i]), float(deaths[i]))) for i in order]
-    return np.asarray(bars)
 
 
 def in_words(bars: Barcode) -> str:

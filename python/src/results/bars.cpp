@@ -109,6 +109,18 @@ std::string svg_of(const Bars& bars, const std::string& title, bool negated,
   return run(options, true, [&](const RunContext&) { return svg_plot(bars.barcode, look); });
 }
 
+/// The bars of a table. Python has checked that each of them is a bar.
+Bars bars_of_columns(const py::buffer& dims, const py::buffer& births, const py::buffer& deaths) {
+  const auto dim = vector_of<std::int64_t>(dims);
+  const auto birth = vector_of<double>(births), death = vector_of<double>(deaths);
+  Bars bars;
+  bars.barcode.reserve_more(dim.size());
+  for (std::size_t i = 0; i < dim.size(); ++i)
+    bars.barcode.add({static_cast<int>(dim[i]), birth[i], death[i]});
+  bars.barcode.sort();
+  return bars;
+}
+
 template <class Numbers>
 auto block_of_bar(Numbers&& numbers) {
   return [numbers](const Bars& bars, std::int64_t i) {
@@ -161,6 +173,7 @@ void bind_bars(py::module_& m) {
           },
           py::arg("places"))
       .def("svg", &svg_of, py::arg("title"), py::arg("negated"), py::arg("run"))
+      .def_static("of", &bars_of_columns, py::arg("dims"), py::arg("births"), py::arg("deaths"))
       .def("state", &state_of)
       .def_static(
           "from_state",
