@@ -12,6 +12,7 @@ from numpy.typing import DTypeLike, NDArray
 
 from . import _core, _errors, _options, _results, _run
 from ._barcodes import Barcode
+from ._results import weights_in
 
 if TYPE_CHECKING:
     from scipy.sparse import csc_array
@@ -218,10 +219,14 @@ def read_barcode(path: str | os.PathLike[str], format: str | None = None,
                  **run: Unpack[RunOptions]) -> Barcode:
     """Reads a barcode from a file of any format that `Barcode.save` writes.
 
+    JSON restores the whole barcode: bars, cells, chains, loops, voxels, p-values and `meta`. CSV
+    restores bars and p-values. The other formats store only the bars. The logger "libph", level
+    INFO, names what a file of another program has in addition.
+
     Parameters
     ----------
     path : path
-        The file. JSON restores cells and chains, but not loops, sets of voxels and p-values.
+        The file, which may be compressed with gzip.
     format : str, optional
         "csv", "json", "ripser", "pers", "dipha" or "npy". Default: the format is detected from
         content and extension.
@@ -233,7 +238,12 @@ def read_barcode(path: str | os.PathLike[str], format: str | None = None,
     Barcode
     """
     _run.check_names("read_barcode", dict(run))
-    bars, meta = _run.run(_core.read_barcode, _options.path_of(path),
+    bars, meta, left_out = _run.run(_core.read_barcode, _options.path_of(path),
                           None if format is None else str(format), options=dict(run))
+    if left_out:
+        _LOG.info("%s: not kept: %s", os.fspath(path), ", ".join(left_out))
+    meta |= weights_in(meta["vertex_weights"])
+    if bars.representatives != "none":
+        meta["representatives"] = bars.representatives
     return Barcode._made(bars, {name: value for name, value in meta.items()
                                 if value is not None and value != ""})

@@ -2,6 +2,7 @@
 """The common base of results: they state their origin, and they can be pickled."""
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
@@ -100,10 +101,29 @@ def vertex_weights_of(meta: Any) -> str:
     return f"{source}, exponent {meta['weight_exponent']}"
 
 
+def weights_in(words: str) -> dict[str, Any]:
+    """The keywords of `rips` or `alpha` for which `vertex_weights_of` returned these words.
+
+    >>> weights_in("dtm 5, exponent 1")
+    {'weights': 'dtm', 'dtm_neighbors': 5, 'weight_exponent': 1.0}
+    """
+    if words.startswith("squared radii of balls"):
+        return {"weights": "given"}
+    match = re.fullmatch(r"(given|file|diagonal|dtm (\d+)), exponent (\S+)", words)
+    if match is None:
+        return {}
+    source, neighbors, exponent = match.groups()
+    return {"weights": "dtm" if neighbors else "given",
+            **({"dtm_neighbors": int(neighbors)} if neighbors else {}),
+            **({"diagonal": "births"} if source == "diagonal" else {}),
+            "weight_exponent": float(exponent)}
+
+
 def origin_of(meta: Any) -> dict[str, Any]:
     """The origin of a barcode as files state it."""
     known = {"input_description": description_of(meta), "vertex_weights": vertex_weights_of(meta)}
-    return {**known, **meta, "program": f"libph {_core.version}"}
+    program = f"libph {meta.get('version', _core.version)}"
+    return {**known, "program": program, **meta}
 
 
 def in_units(size: float) -> str:

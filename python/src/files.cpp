@@ -166,6 +166,7 @@ void save(const Bars& bars, const std::string& path, const std::optional<std::st
                     ", expected csv, json, ripser, pers, dipha or npy");
   BarcodeInfo info = info_of(meta);
   info.loops = bars.loops;
+  info.p_values = bars.p_values;
   run_task(options, false, [&](const SharedContext&) {
     OutputFile file(path);
     write_barcode(file, bars.barcode, *format, info);
@@ -182,8 +183,13 @@ py::tuple read_bars(const std::string& path, const std::optional<std::string>& f
   StoredBarcode stored = run(options, false, [&](const RunContext& context) {
     return read_stored_barcode(Input::open(std::filesystem::path(path), &context), format);
   });
-  return py::make_tuple(Bars{std::move(stored.bars), {}, {}, stored.info.field},
-                        meta_of(stored.info));
+  const py::dict meta = meta_of(stored.info);
+  return py::make_tuple(Bars{std::move(stored.bars),
+                             std::move(stored.loops),
+                             {},
+                             stored.info.field,
+                             std::move(stored.p_values)},
+                        meta, stored.left_out);
 }
 
 }  // namespace

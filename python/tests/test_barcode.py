@@ -366,21 +366,91 @@ def test_save_and_read(bars, extension, tmp_path):
         assert np.allclose(np.asarray(other), np.asarray(bars), rtol=1e-5, equal_nan=False)
         return
     assert other == bars
-    if extension != "json" or bars.meta.get("representatives") == "voxels":
-        return
-    for name in ("complex", "field", "max_dim", "threshold", "engine",
-                 "approximation", "covering_radius"):
-        assert other.meta.get(name) == (bars.meta.get(name) or None), name
-    for name in ("metric", "construction", "periodic", "superlevel", "min_persistence", "min_dim"):
-        assert other.meta.get(name) == bars.meta.get(name), name
-    if bars._bars.has_cells:
-        assert np.array_equal(other.birth_cells(0), bars.birth_cells(0))
-    if bars.meta.get("representatives") == "cycles":
-        for i in range(len(bars)):
-            assert np.array_equal(other.representative(i).cells, bars.representative(i).cells)
+    if extension == "json":
+        check_whole(other, bars)
+
+
+def check_whole(other, bars):
+    """Checks that `other` has everything that `bars` has."""
+    assert other == bars and same(parts(other), parts(bars))
+    lost = {name: value for name, value in bars.meta.items()
+            if other.meta.get(name) != value and (value or name in other.meta)}
+    assert not lost
+    assert repr(other) == repr(bars)
 
 
 DISTANCES = [[0.5, 1.0, 2.0], [1.0, 0.25, 1.5], [2.0, 1.5, 0.0]]
+TORUS = np.random.default_rng(3).random((4, 5, 6))
+
+
+@pytest.mark.parametrize("make", [
+    lambda: ph.rips(POINTS, max_dim=2, representatives="cycles", threshold=2.0),
+    lambda: ph.rips(POINTS, field=3, representatives="cycles", loops="plain"),
+    lambda: ph.rips(POINTS, representatives="cocycles", field=5),
+    lambda: ph.rips(POINTS, representatives="cycles", cells=False),
+    lambda: ph.rips(POINTS, subsample=20), lambda: ph.rips(POINTS, approximation=0.5),
+    lambda: ph.rips(POINTS, collapse=True), lambda: ph.rips(POINTS, metric="minkowski", minkowski_p=3),
+    lambda: ph.rips(POINTS, weights="dtm", dtm_neighbors=4, weight_exponent=2),
+    lambda: ph.rips(POINTS, weights=np.ones(len(POINTS))),
+    lambda: ph.rips(DISTANCES, metric="precomputed", diagonal="births"),
+    lambda: ph.cubical(TORUS, representatives="voxels"),
+    lambda: ph.cubical(TORUS, representatives="voxels", superlevel=True, construction="cells"),
+    lambda: ph.cubical(TORUS[0], representatives="voxels", cells=False),
+    lambda: ph.cubical(TORUS, representatives="voxels", cells=False, min_dim=1),
+    lambda: ph.cubical(TORUS, representatives="voxels").filter(dim=2),
+    lambda: ph.cubical(TORUS, representatives="cycles", periodic=[0, 2], min_persistence=0.1),
+    lambda: ph.cubical(TORUS, representatives="cocycles"),
+    lambda: ph.lower_star([0, 2, 1], [[0, 1], [1, 2]], representatives="cycles"),
+    lambda: ph.filtered([[0], [1], [0, 1]], [0, 0, 1]),
+    lambda: ph.rips([]),
+])
+def test_json_brings_everything_back(make, tmp_path):
+    bars = make()
+    bars.save(tmp_path / "bars.json")
+    other = ph.read_barcode(tmp_path / "bars.json")
+    check_whole(other, bars)
+    other.save(tmp_path / "again.json")
+    assert (tmp_path / "again.json").read_text() == (tmp_path / "bars.json").read_text()
+
+
+def test_voxels_of_files(tmp_path):
+    bars = ph.cubical(TORUS, representatives="voxels")
+    bars.save(tmp_path / "v.json")
+    bars.save(tmp_path / "v.csv")
+    other = ph.read_barcode(tmp_path / "v.json")
+    for i in range(len(bars)):
+        assert np.array_equal(other.voxels(i), bars.voxels(i))
+        assert other.birth_voxel(i) == bars.birth_voxel(i)
+        assert other.death_voxel(i) == bars.death_voxel(i)
+    table = ph.read_barcode(tmp_path / "v.csv")
+    for ask in (lambda: table.voxels(0), lambda: table.birth_voxel(0), lambda: table.birth_cells(0),
+                lambda: table.representative(0)):
+        with pytest.raises(ph.UsageError, match="found none, .* save them as .json"):
+            ask()
+    with pytest.raises(ph.UsageError, match="representatives='voxels'$"):
+        ph.cubical(TORUS).voxels(0)
+
+
+def test_p_values_of_files(tmp_path):
+    (tmp_path / "p.csv").write_text("dim,birth,death,p\n1,2,3,0.5\n1,1,3,0.25\n0,0,inf,\n")
+    bars = ph.read_barcode(tmp_path / "p.csv")
+    assert ph.rips(POINTS).p_values is None
+    assert bars.p_values[1:].tolist() == [0.25, 0.5] and np.isnan(bars.p_values[0])
+    assert bars.filter(dim=1).p_values.tolist() == [0.25, 0.5]
+    assert pickle.loads(pickle.dumps(bars)).p_values[1:].tolist() == [0.25, 0.5]
+    for name in ("again.csv", "again.json"):
+        bars.save(tmp_path / name)
+        assert np.array_equal(ph.read_barcode(tmp_path / name).p_values, bars.p_values, equal_nan=True)
+
+
+def test_files_of_other_programs_say_what_is_left_out(tmp_path, caplog):
+    caplog.set_level("INFO", logger="libph")
+    (tmp_path / "b.csv").write_text("dim,birth,death,lifetime\n0,0,1,1\n")
+    ph.read_barcode(tmp_path / "b.csv")
+    assert [record.message for record in caplog.records] == [
+        f"{tmp_path / 'b.csv'}: not kept: lifetime"]
+
+
 
 
 @pytest.mark.parametrize("make, members, meta", [

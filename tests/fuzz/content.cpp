@@ -242,6 +242,13 @@ Content content_of(const Barcode& barcode) {
         require(chain.coefficient(k) != 0, "a coefficient is zero");
         content.numbers.push_back(static_cast<double>(chain.coefficient(k)));
       }
+      // The list of the voxels is in no particular order.
+      std::vector<Index> voxels(barcode.voxels(i).begin(), barcode.voxels(i).end());
+      std::ranges::sort(voxels);
+      require(std::ranges::adjacent_find(voxels) == voxels.end(), "a voxel is listed twice");
+      for (const auto list :
+           {std::span<const Index>(voxels), barcode.birth_voxel(i), barcode.death_voxel(i)})
+        if (!list.empty()) add_cell(content, list);
     }
     content.end_row();
   }

@@ -42,7 +42,8 @@ Outcome run_stored(const Job& job, const Input& input, Outputs& outputs, app::Se
       throw Error(
           ErrorKind::usage,
           fmt::format("--plot-kind {}: makes sense for data only, found a barcode", plot.kind));
-  const auto [barcode, origin, left_out] = read_stored_barcode(input);
+  const StoredBarcode stored = read_stored_barcode(input);
+  const Barcode& barcode = stored.bars;
   const std::string description =
       fmt::format("a barcode, {}", app::count_of(barcode.size(), "bar"));
   const std::string what = fmt::format("read {}: {}", input.name(), description);
@@ -51,11 +52,9 @@ Outcome run_stored(const Job& job, const Input& input, Outputs& outputs, app::Se
   else
     session.note(what);
   // Other formats have no room for the further data of a JSON file, and nobody expects to find
-  // these data in them. A loss is therefore noted only for JSON and, for p-values, for CSV.
-  const bool loses_p =
-      job.places.format == BarcodeFormat::csv && std::ranges::find(left_out, "p") != left_out.end();
-  if (loses_p || (job.places.format == BarcodeFormat::json && !left_out.empty()))
-    session.note(fmt::format("{}: not kept: {}", input.name(), fmt::join(left_out, ", ")));
+  // these data in them. A loss is therefore noted only for JSON.
+  if (job.places.format == BarcodeFormat::json && !stored.left_out.empty())
+    session.note(fmt::format("{}: not kept: {}", input.name(), fmt::join(stored.left_out, ", ")));
   BarcodeInfo info;
   info.program = app::program_and_version("ph-barcode");
   info.input = job.places.input;
@@ -64,12 +63,15 @@ Outcome run_stored(const Job& job, const Input& input, Outputs& outputs, app::Se
   note_absent_dims(barcode, job.results.look, session);
   const app::BarHold results_are_written(session);
   // The program that converts the bars is not the program that computed them.
-  const bool is_known = !origin.program.empty();
+  const bool is_known = !stored.info.program.empty();
   // mutant: stored-origin
-  outputs.write(barcode, is_known ? origin : info, look_of(job.results.look, origin.superlevel), {},
-                session.context());
+  BarcodeInfo origin = is_known ? stored.info : info;
+  origin.loops = stored.loops;
+  origin.p_values = stored.p_values;
+  const bool superlevel = stored.info.superlevel;
+  outputs.write(barcode, origin, look_of(job.results.look, superlevel), {}, session.context());
   if (!job.places.report.empty())
-    write_stored_report(outputs.report(), input, barcode, info, origin.superlevel, job, session);
+    write_stored_report(outputs.report(), input, barcode, info, superlevel, job, session);
   return {app::kOk, description};
 }
 

@@ -222,6 +222,16 @@ class Barcode(Cells, Summaries, Sequence[Bar]):
         """The death of each bar; inf for a bar that never dies."""
         return self._arrays[2]
 
+    @property
+    def p_values(self) -> NDArray[np.float64] | None:
+        """The p-value of each bar, if the barcode was read from a file with p-values; else None.
+
+        ``ph-barcode --significance`` writes such files. NaN: the bar has no p-value.
+        `significance` computes p-values.
+        """
+        values = np.asarray(self._bars.p_values)
+        return values if values.size else None
+
     def _range(self, dim: int) -> slice:
         """The indices of the bars of a dimension."""
         first, last = np.searchsorted(self.dims, [dim, dim + 1])

@@ -63,9 +63,16 @@ class Cells:
         cell = self.death_cells(dim)[place - self._range(dim).start]
         return None if (cell == -1).all() else cell
 
+    def _found_none(self, what: str, expected: str) -> UsageError:
+        # Bars that were not computed here come from a table or from a JSON file.
+        hint = "" if "complex" in self.meta else (
+            "; if these bars were saved in another format, save them as .json, which keeps cells, "
+            "chains and voxels")
+        return UsageError(f"{what}: found none, expected a barcode {expected}{hint}")
+
     def _dim_of_cells(self, dim: int) -> int:
         if not self._bars.has_cells:
-            raise UsageError("cells: found none, expected a barcode computed with cells=True")
+            raise self._found_none("cells", "computed with cells=True")
         return _options.whole("dim", dim, 0, 2**31 - 2)
 
     def representative(self, i: int) -> Chain:
@@ -79,15 +86,15 @@ class Cells:
         array([0, 1, 2, 3])
         """
         if self._bars.representatives == "none" and len(self):
-            raise UsageError("representative: found none, expected a barcode computed with "
-                             "representatives='cycles' or 'cocycles'")
+            raise self._found_none("representative",
+                                   "computed with representatives='cycles' or 'cocycles'")
         return Chain(self._bars, self._place(i))
 
     def _require_voxels(self) -> tuple[int, ...]:
         shape = self.meta.get("shape")
         if self._bars.representatives != "voxels" or shape is None:
-            raise UsageError("voxels: found none, expected a barcode of an image computed with "
-                             "representatives='voxels'")
+            raise self._found_none("voxels",
+                                   "of an image computed with representatives='voxels'")
         return tuple(shape)
 
     def voxels(self, i: int) -> NDArray[np.bool_]:

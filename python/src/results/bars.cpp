@@ -80,7 +80,10 @@ py::tuple loops_of(const Bars& bars, std::int64_t i) {
   BarLoops own;
   if (bars.loops.empty()) own.loops = closed_walks(bars.barcode.representative(place), bars.field);
   const BarLoops& all = bars.loops.empty() ? own : bars.loops[place];
-  const std::size_t width = bars.barcode.cell_kind() == CellKind::grid ? width_of(bars, 0) : 1;
+  // The birth cell of the bar need not be known, but its cycle is.
+  const bool is_grid = bars.barcode.cell_kind() == CellKind::grid && !all.loops.empty();
+  const std::size_t width =
+      is_grid ? bars.barcode.representative(place).cell(0).numbers.size() : std::size_t{1};
   py::list loops;
   for (const Loop& loop : all.loops) {
     const auto vertices = static_cast<py::ssize_t>(loop.numbers.size() / width);
@@ -88,8 +91,7 @@ py::tuple loops_of(const Bars& bars, std::int64_t i) {
         py::make_tuple(Block::of(loop.numbers, {vertices, static_cast<py::ssize_t>(width)}),
                        loop.coefficient, loop.length));
   }
-  constexpr const char* kTightness[] = {"no", "locally", "shortest"};
-  return py::make_tuple(loops, kTightness[static_cast<int>(all.tightness)]);
+  return py::make_tuple(loops, all.tightness);
 }
 
 py::buffer_info bytes_of_bars(const Bars& bars) {
@@ -151,6 +153,8 @@ void bind_bars(py::module_& m) {
       .def("__len__", [](const Bars& bars) { return bars.barcode.size(); })
       .def_readonly("facts", &Bars::facts)
       .def_readonly("field", &Bars::field)
+      .def_property_readonly("p_values",
+                             [](const Bars& bars) { return Block::of(std::vector(bars.p_values)); })
       .def_property_readonly("cell_kind", [](const Bars& bars) { return bars.barcode.cell_kind(); })
       .def_property_readonly("has_cells",
                              [](const Bars& bars) {

@@ -30,6 +30,8 @@ struct Bars {
   std::vector<BarLoops> loops = {};
   Facts facts = {};
   std::int64_t field = 2;
+  /// The p-value of each bar, NaN if a bar has none; empty unless they come from a file.
+  std::vector<double> p_values = {};
 
   /// The bars of a dimension, which are `count` bars from index `first` on.
   struct Range {

@@ -175,6 +175,7 @@ Bars selected(const Bars& bars, const std::vector<std::int64_t>& places) {
     const auto i = static_cast<std::size_t>(place);
     append(chosen.barcode, all[i], parts_of(all, i, voxels), all.representatives());
     if (!bars.loops.empty()) chosen.loops.push_back(bars.loops[i]);
+    if (!bars.p_values.empty()) chosen.p_values.push_back(bars.p_values[i]);
   }
   return chosen;
 }
@@ -215,6 +216,7 @@ py::dict state_of(const Bars& bars) {
   death_voxels.put(state, "death_voxels");
   state["voxels"] = Block::copy_of(voxels);
   LoopLists(bars.loops).put(state);
+  state["p_values"] = Block::of(std::vector(bars.p_values));
   return state;
 }
 
@@ -250,7 +252,9 @@ Bars bars_of_state(const py::dict& state) {
     append(bars.barcode, {static_cast<int>(dims[i]), births[i], deaths[i]}, parts, kind);
   }
   bars.loops = LoopLists(state).loops();
-  if (!bars.loops.empty() && bars.loops.size() != bars.barcode.size()) fail();
+  bars.p_values = vector_of<double>(state["p_values"]);
+  for (const std::size_t known : {bars.loops.size(), bars.p_values.size()})
+    if (known != 0 && known != bars.barcode.size()) fail();
   return bars;
 }
 

@@ -57,13 +57,21 @@ struct BarcodeAlphaValues {
 /// members are left out; if `complex` is empty, the field of coefficients, the dimension and the
 /// threshold are left out as well.
 struct BarcodeInfo {
-  std::string program;            ///< name and version
-  std::string input;              ///< path of the input
-  std::string input_description;  ///< "1024 points in R^3, CSV"
-  std::string complex;            ///< "rips", "cubical", "explicit", "lower-star", "alpha", …
+  std::string program;               ///< name and version
+  std::string input;                 ///< path of the input
+  std::string input_description;     ///< "1024 points in R^3, CSV"
+  std::optional<Index> points;       ///< the number of points of the input
+  std::optional<Index> coordinates;  ///< the number of coordinates of each point
+  std::vector<Index> shape;          ///< extents of an image
+  std::optional<Affine> affine;      ///< of an image, see ReadResult::affine
+  bool nan_dropped = false;          ///< points or voxels with NaN were left out
+  std::string complex;               ///< "rips", "cubical", "explicit", "lower-star", "alpha", …
   std::int64_t field = 2;
   int max_dim = 0;
   std::optional<double> threshold;
+  std::optional<Index> vertices;     ///< of a Rips complex
+  std::optional<std::size_t> edges;  ///< of a Rips complex, unless only points are held
+  bool collapsed = false;            ///< edges were collapsed
   /// For a Rips complex, the kind of distance: "euclidean", "minkowski:3", see metric_name;
   /// "precomputed" (given by the user), "function" (a function of the user).
   std::string metric;
@@ -93,6 +101,7 @@ struct BarcodeInfo {
   std::span<const double> p_values;
   std::optional<double> min_persistence;  ///< bars of this length or less were left out
   int min_dim = 0;                        ///< bars of lower dimensions were left out
+  std::vector<int> dims;  ///< if not empty, bars of all other dimensions were left out
   std::string engine;
   std::vector<std::pair<std::string, double>> timings;  ///< each stage with its seconds
   std::uint64_t peak_memory = 0;                        ///< bytes; 0 if unknown
@@ -138,10 +147,13 @@ Barcode read_barcode(const Input& input, std::optional<BarcodeFormat> format = s
 /// A barcode with everything that its file says about it.
 struct StoredBarcode {
   Barcode bars;
-  BarcodeInfo info;  ///< without loops and p-values; empty for all formats except JSON
-  /// Data of the file that are not kept here: names of JSON members ("loops", "voxels", "p" and
-  /// unknown names) or of columns ("p", "persistence"), or "birth and death voxels" (NPY).
-  std::vector<std::string> left_out;
+  std::vector<BarLoops> loops = {};   ///< of each bar, as BarcodeInfo::loops; only JSON stores them
+  std::vector<double> p_values = {};  ///< of each bar, as BarcodeInfo::p_values; from JSON and CSV
+  /// Only JSON states facts. The loops and p-values are above.
+  BarcodeInfo info = {};
+  /// Data of the file that are not kept here: names of unknown JSON members, the name of a column
+  /// ("persistence"), or "birth and death voxels" (NPY).
+  std::vector<std::string> left_out = {};
 };
 StoredBarcode read_stored_barcode(const Input& input,
                                   std::optional<BarcodeFormat> format = std::nullopt);

@@ -49,18 +49,6 @@ void write_chain(OutputFile& file, const InputChain& chain) {
   file.write("]");
 }
 
-std::string_view tightness_name(Tightness tightness) {
-  switch (tightness) {
-    case Tightness::none:
-      return "no";
-    case Tightness::locally:
-      return "locally";
-    case Tightness::shortest:
-      return "shortest";
-  }
-  return "";
-}
-
 /// Throws if the loops do not match the bars. Called before anything is written.
 void check_loops(const Barcode& barcode, std::span<const BarLoops> loops) {
   if (loops.empty()) return;
@@ -101,7 +89,7 @@ void write_loops(OutputFile& file, const BarLoops& of_bar, const InputCell& edge
     }
     file.write(fmt::format("], \"coefficient\": {}", loop.coefficient));
     if (loop.length) file.write(fmt::format(", \"length\": {}", json_value(*loop.length)));
-    file.write(fmt::format(", \"tight\": \"{}\"}}", tightness_name(of_bar.tightness)));
+    file.write(fmt::format(", \"tight\": \"{}\"}}", name_of(of_bar.tightness)));
     between = ", ";
   }
   file.write("]");
@@ -167,12 +155,25 @@ std::string filtration_members(const BarcodeInfo& info, std::string_view between
        {"superlevel", info.superlevel ? "true" : ""},
        {"approximation", info.approximation ? json_value(*info.approximation) : ""},
        {"min_persistence", info.min_persistence ? json_value(*info.min_persistence) : ""},
-       {"min_dim", info.min_dim > 0 ? json::integer(info.min_dim) : ""}},
+       {"min_dim", info.min_dim > 0 ? json::integer(info.min_dim) : ""},
+       {"dims", info.dims.empty() ? "" : json::array(info.dims, json::integer<int>)}},
       between);
   return members;
 }
 
 namespace {
+
+std::string json_input(const BarcodeInfo& info) {
+  const auto row = [](const auto& numbers) { return json::array(numbers, json_value); };
+  return json::object(
+      {{"path", json::string(info.input)},
+       {"description", json::string(info.input_description)},
+       {"points", info.points ? json::integer(*info.points) : ""},
+       {"coordinates", info.coordinates ? json::integer(*info.coordinates) : ""},
+       {"shape", info.shape.empty() ? "" : json::array(info.shape, json::integer<Index>)},
+       {"affine", info.affine ? json::array(*info.affine, row) : ""},
+       {"nan", info.nan_dropped ? json::string("drop") : ""}});
+}
 
 /// The members that come before the bars in the file.
 std::string json_heading(const Barcode& barcode, const BarcodeInfo& info) {
@@ -182,20 +183,21 @@ std::string json_heading(const Barcode& barcode, const BarcodeInfo& info) {
   const bool has_chains = barcode.representatives() != Representatives::none;
   constexpr std::string_view kBetween = ",\n  ";
   std::string heading;
-  json::add_members(
-      heading,
-      {{"format", json::string("ph-barcode")},
-       {"version", "1"},
-       {"program", json::string(info.program)},
-       {"input", json::object({{"path", json::string(info.input)},
-                               {"description", json::string(info.input_description)}})},
-       {"complex", text(info.complex)},
-       {"field", has_complex ? json::integer(info.field) : ""},
-       {"max_dim", has_complex ? json::integer(info.max_dim) : ""},
-       {"threshold", !has_complex     ? ""
-                     : info.threshold ? json_value(*info.threshold)
-                                      : "null"}},
-      kBetween);
+  json::add_members(heading,
+                    {{"format", json::string("ph-barcode")},
+                     {"version", "1"},
+                     {"program", json::string(info.program)},
+                     {"input", json_input(info)},
+                     {"complex", text(info.complex)},
+                     {"field", has_complex ? json::integer(info.field) : ""},
+                     {"max_dim", has_complex ? json::integer(info.max_dim) : ""},
+                     {"threshold", !has_complex     ? ""
+                                   : info.threshold ? json_value(*info.threshold)
+                                                    : "null"},
+                     {"vertices", info.vertices ? json::integer(*info.vertices) : ""},
+                     {"edges", info.edges ? json::integer(*info.edges) : ""},
+                     {"collapsed", info.collapsed ? "true" : ""}},
+                    kBetween);
   if (const std::string members = filtration_members(info, kBetween); !members.empty())
     heading.append(kBetween) += members;
   json::add_members(

@@ -4,8 +4,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <tuple>
 
 #include "libph/src/io/bytes/readers.hpp"
 #include "ph/detail/io/table.hpp"
@@ -103,6 +106,32 @@ BarcodeFormat format_of(const Input& input) {
   return barcode_format_of_path("x" + input.extension()).value_or(BarcodeFormat::csv);
 }
 
+/// Sorts the bars, and their loops and p-values with them.
+void sort(StoredBarcode& stored) {
+  Barcode& bars = stored.bars;
+  if (!stored.loops.empty() || !stored.p_values.empty()) {
+    std::vector<std::size_t> order(bars.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) {
+      const auto values = [&](std::size_t i) {
+        return std::tie(bars[i].dim, bars[i].birth, bars[i].death);
+      };
+      if (values(a) != values(b)) return values(a) < values(b);
+      return std::ranges::lexicographical_compare(bars.birth_cell(a).numbers,
+                                                  bars.birth_cell(b).numbers);
+    });
+    const auto reorder = [&](auto& of_bars) {
+      if (of_bars.empty()) return;
+      std::remove_reference_t<decltype(of_bars)> sorted;
+      for (const std::size_t i : order) sorted.push_back(std::move(of_bars[i]));
+      of_bars = std::move(sorted);
+    };
+    reorder(stored.loops);
+    reorder(stored.p_values);
+  }
+  bars.sort();
+}
+
 }  // namespace
 
 bool is_barcode(const Input& input) {
@@ -139,9 +168,9 @@ StoredBarcode read_stored_barcode(const Input& input, std::optional<BarcodeForma
       case BarcodeFormat::json:
         return read_barcode_json(input);
       case BarcodeFormat::ripser:
-        return {read_barcode_ripser(input), {}, {}};
+        return {.bars = read_barcode_ripser(input)};
       case BarcodeFormat::dipha:
-        return {read_dipha(input), {}, {}};
+        return {.bars = read_dipha(input)};
       case BarcodeFormat::npy:
         return read_npy(input);
       case BarcodeFormat::pers:
@@ -154,7 +183,7 @@ StoredBarcode read_stored_barcode(const Input& input, std::optional<BarcodeForma
   };
   input.take_memory();
   StoredBarcode stored = read();
-  stored.bars.sort();
+  sort(stored);
   return stored;
 }
 

@@ -74,7 +74,7 @@ std::optional<Columns> columns_by_name(const TextLines& lines) {
     const Column role = known == nullptr ? Column::other : *known;
     // mutant: bars-column-twice
     if (role != Column::other && columns.has(role)) return std::nullopt;
-    if (known != nullptr && role > Column::death) columns.left_out.push_back(name);
+    if (known != nullptr && role > Column::p) columns.left_out.push_back(name);
     columns.roles.push_back(role);
   }
   for (const Column needed : {Column::dim, Column::birth, Column::death})
@@ -117,11 +117,12 @@ int read_dimension(Cells& cells) {
   return static_cast<int>(cells.integer(0, kMostBarDimension, "dimension"));
 }
 
-void check_p(const TextLines& lines, Cells& cells) {
+double read_p(const TextLines& lines, Cells& cells) {
   const char* const begin = cells.place();
   const double p = cells.number(Allow::missing);
   if (!(std::isnan(p) || (p >= 0 && p <= 1)))
     lines.fail(begin, {"p-value", shortest(p), "a number from 0 to 1, or nothing", {}});
+  return p;
 }
 
 void require_cell(const TextLines& lines, const Cells& cells, Column role,
@@ -136,11 +137,18 @@ void require_cell(const TextLines& lines, const Cells& cells, Column role,
               {}});
 }
 
-// Reads the bar in the current line.
-Bar read_row(const TextLines& lines, const Columns& columns) {
+/// A bar, and its p-value if it has one.
+struct Row {
+  Bar bar;
+  double p = std::nan("");
+};
+
+// Reads the current line.
+Row read_row(const TextLines& lines, const Columns& columns) {
   Cells cells(lines);
   cells.start();
-  Bar bar;
+  Row row;
+  Bar& bar = row.bar;
   for (const Column role : columns.roles) {
     if (role <= Column::death) require_cell(lines, cells, role, columns.expected);
     switch (role) {
@@ -154,7 +162,7 @@ Bar read_row(const TextLines& lines, const Columns& columns) {
         bar.death = cells.number(Allow::infinite);
         break;
       case Column::p:
-        if (cells.more()) check_p(lines, cells);
+        if (cells.more()) row.p = read_p(lines, cells);
         break;
       case Column::characteristic:
         cells.integer(2, std::numeric_limits<std::int32_t>::max(), "characteristic");
@@ -165,7 +173,7 @@ Bar read_row(const TextLines& lines, const Columns& columns) {
     }
   }
   cells.expect_end(columns.expected);
-  return bar;
+  return row;
 }
 
 }  // namespace
@@ -193,7 +201,9 @@ StoredBarcode read_barcode_rows(const Input& input, bool may_be_empty) {
       }
       columns = columns_by_count(lines);
     }
-    add_at(lines, stored.bars, read_row(lines, *columns));
+    const Row row = read_row(lines, *columns);
+    add_at(lines, stored.bars, row.bar);
+    if (columns->has(Column::p)) stored.p_values.push_back(row.p);
   }
   if (!columns && !may_be_empty) {
     input.fail({"no bars", "nothing", "a header or a line dim birth death", {}});

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -53,10 +54,70 @@ TEST(ReadBarcode, JsonTellsOfVoxelsByRuns) {
                              R"("voxels": [[2, 3], [7, 1], [9, 1]]})"));
   EXPECT_TRUE(
       contains(text, R"("birth_voxel": [1, 2], "death_voxel": null, "representative": [{)"));
-  // The cells of the bars are read back, but the representatives are not.
   const Barcode read = back(text);
-  EXPECT_EQ(read.representatives(), Representatives::none);
+  EXPECT_EQ(read.representatives(), Representatives::voxels);
   EXPECT_EQ(numbers(read.birth_cell(0)), (std::vector<Index>{0, 4}));
+  EXPECT_TRUE(std::ranges::equal(read.voxels(0), std::array{2, 3, 4, 7, 9}));
+  EXPECT_TRUE(std::ranges::equal(read.birth_voxel(0), std::array{0, 2}));
+  EXPECT_TRUE(std::ranges::equal(read.death_voxel(0), std::array{1, 2}));
+  EXPECT_TRUE(read.voxels(1).empty());
+  EXPECT_TRUE(std::ranges::equal(read.birth_voxel(1), std::array{1, 2}));
+  EXPECT_TRUE(read.death_voxel(1).empty());
+  EXPECT_EQ(read.representative(1).size(), 1U);
+  EXPECT_EQ(text_of(read, BarcodeFormat::json), text);
+}
+
+TEST(ReadBarcode, JsonBringsSetsWithoutCellsBack) {
+  Barcode barcode(CellKind::grid);  // the first bar has neither cells nor a chain
+  const std::size_t begin = barcode.store_voxels(std::array<std::uint32_t, 1>{5});
+  barcode.add({0, 1, 2});
+  barcode.set_representative(Representatives::voxels, {}, {});
+  barcode.set_voxels({begin, begin + 1}, std::array<Index, 1>{5}, std::array<Index, 1>{6});
+  barcode.add({1, 1, 2});
+  barcode.set_representative(Representatives::voxels, std::array<Index, 1>{11},
+                             std::array<std::int64_t, 1>{1});
+  barcode.set_voxels({}, std::array<Index, 1>{5}, std::array<Index, 1>{6});
+  const std::string text = text_of(barcode, BarcodeFormat::json);
+  EXPECT_EQ(text_of(back(text), BarcodeFormat::json), text);
+}
+
+TEST(ReadBarcode, VoxelsStayInTheMemoryLimit) {
+  // Few numbers stand for 2^32 - 1 voxels.
+  const std::string text = R"({"format": "ph-barcode", "representatives": "voxels", "bars": [
+ {"dim": 0, "birth": 1, "death": 2, "voxels": [[0, 4294967295]]}]})";
+  RunContext context;
+  context.memory.set_limit(std::size_t{1} << 20);
+  const Input input = Input::hold({text.begin(), text.end(), &context.memory}, "v.json", &context);
+  try {
+    read_barcode(input);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::resource);
+  }
+}
+
+// The bars are not in order: loops and p-values move with their bars.
+TEST(ReadBarcode, JsonBringsLoopsAndPValuesBack) {
+  const StoredBarcode read = read_stored_barcode(Input::view(R"({"format": "ph-barcode",
+ "representatives": "cycles", "bars": [
+ {"dim": 1, "birth": 3, "death": 4, "birth_cell": {"vertices": [1, 2]}, "p": 0.25,
+  "representative": [{"vertices": [1, 2], "coefficient": 1}, {"vertices": [0, 1], "coefficient": 2}],
+  "loops": [{"vertices": [0, 1, 2], "coefficient": 2, "length": 2.5, "tight": "shortest"},
+            {"vertices": [4, 5, 6], "coefficient": -1, "tight": "shortest"}]},
+ {"dim": 1, "birth": 1, "death": 4, "birth_cell": {"vertices": [0, 2]},
+  "representative": [{"vertices": [0, 2], "coefficient": 1}]}]})",
+                                                             "l.json"));
+  ASSERT_EQ(read.bars.size(), 2U);
+  EXPECT_EQ(read.bars[0].birth, 1);
+  ASSERT_EQ(read.loops.size(), 2U);
+  EXPECT_TRUE(read.loops[0].loops.empty());
+  EXPECT_EQ(read.loops[1].tightness, Tightness::shortest);
+  EXPECT_EQ(read.loops[1].loops,
+            (std::vector<Loop>{{{0, 1, 2}, 2, 2.5}, {{4, 5, 6}, -1, std::nullopt}}));
+  ASSERT_EQ(read.p_values.size(), 2U);
+  EXPECT_TRUE(std::isnan(read.p_values[0]));
+  EXPECT_EQ(read.p_values[1], 0.25);
+  EXPECT_TRUE(read.left_out.empty());
 }
 
 TEST(ReadBarcode, JsonSkipsWhatItDoesNotKnow) {
@@ -72,7 +133,8 @@ TEST(ReadBarcode, JsonSaysWhereItCameFrom) {
     return read_stored_barcode(Input::view(text, "b.json"));
   };
   const StoredBarcode read = stored(R"({"format": "ph-barcode", "version": 1, "program": "p 1",
- "input": {"path": "a", "description": "d"}, "complex": "rips", "field": 3, "max_dim": 2,
+ "input": {"path": "a", "description": "d", "points": 9, "coordinates": 3, "shape": [4, 5]},
+ "vertices": 4, "edges": 6, "collapsed": true, "complex": "rips", "field": 3, "max_dim": 2,
  "threshold": 1.5, "vertex_weights": "dtm 2", "metric": "cosine", "construction": "cells",
  "periodic": [0, 2], "min_persistence": 0.125, "min_dim": 1,
  "subsample": {"points": 4, "of": 9, "covering_radius": 0.5},
@@ -84,6 +146,12 @@ TEST(ReadBarcode, JsonSaysWhereItCameFrom) {
   EXPECT_EQ(info.program, "p 1");
   EXPECT_EQ(info.input, "a");
   EXPECT_EQ(info.input_description, "d");
+  EXPECT_EQ(info.points, 9);
+  EXPECT_EQ(info.coordinates, 3);
+  EXPECT_EQ(info.shape, (std::vector<Index>{4, 5}));
+  EXPECT_EQ(info.vertices, 4);
+  EXPECT_EQ(info.edges, 6U);
+  EXPECT_TRUE(info.collapsed);
   EXPECT_EQ(info.complex, "rips");
   EXPECT_EQ(info.field, 3);
   EXPECT_EQ(info.max_dim, 2);
@@ -111,7 +179,7 @@ TEST(ReadBarcode, JsonSaysWhereItCameFrom) {
   EXPECT_EQ(info.timings,
             (std::vector<std::pair<std::string, double>>{{"read", 0.5}, {"plan", 1}}));
   EXPECT_EQ(info.peak_memory, 77U);
-  EXPECT_EQ(read.left_out, (std::vector<std::string>{"loops", "shape"}));
+  EXPECT_EQ(read.left_out, (std::vector<std::string>{"shape"}));
   EXPECT_TRUE(contains(
       bad_data([&] { stored(R"({"format": "ph-barcode", "superlevel": 1, "bars": []})"); }),
       "expected true or false"));
@@ -134,6 +202,17 @@ TEST(ReadBarcode, JsonRefusesDamage) {
       [&](std::size_t length) { return length + 1 == whole.size(); });
   const auto bar = [](const std::string& text) {
     return R"({"format": "ph-barcode", "bars": [)" + text + "]}";
+  };
+  const auto chain = [](const std::string& text) {
+    return R"({"format": "ph-barcode", "representatives": "cycles", "bars": [
+        {"dim": 1, "birth": 1, "death": 2, "birth_cell": {"vertices": [1, 2]},
+         "representative": [{"vertices": [1, 2], "coefficient": 1}], )" +
+           text + "}]}";
+  };
+  const auto set = [](const std::string& text) {
+    return R"({"format": "ph-barcode", "input": {"shape": [2, 5]}, "representatives": "voxels",
+        "bars": [{"dim": 0, "birth": 1, "death": 2, )" +
+           text + "}]}";
   };
   for (const std::string& text : std::vector<std::string>{
            "{}",
@@ -166,6 +245,19 @@ TEST(ReadBarcode, JsonRefusesDamage) {
            bar(R"({"dim": 0, "birth": 1, "death": 2, "x": "\q"})"),
            bar(R"({"dim": 0, "birth": 1, "death": 2, "x": "\u12g4"})"),
            bar(R"({"dim": 0, "birth": 1, "death": 2} {})"),
+           bar(R"({"dim": 0, "birth": 1, "death": 2, "p": 1.5})"),
+           bar(R"({"dim": 1, "birth": 1, "death": 2,
+                   "loops": [{"vertices": [1], "coefficient": 1}]})"),
+           chain(R"("loops": [{"vertices": [], "coefficient": 1}])"),
+           chain(R"("loops": [{"vertices": [1]}])"),
+           chain(R"("loops": [{"grid": [[1]], "coefficient": 1}])"),
+           chain(R"("loops": [{"vertices": [1], "coefficient": 1, "tight": "yes"}])"),
+           set(R"("voxels": [[0, 0]])"),
+           set(R"("voxels": [[0, 2, 1]])"),
+           set(R"("voxels": [[0, 2], [1, 1]])"),
+           set(R"("voxels": [[4294967295, 2]])"),
+           set(R"("birth_voxel": [2, 5])"),
+           set(R"("birth_voxel": [1])"),
            bar("") + "x"}) {
     EXPECT_TRUE(contains(bad_data([&] { back(text, "b.json"); }), "b.json")) << text;
   }

@@ -56,10 +56,14 @@ TEST(ReadBarcode, ValuesOfPMayFollow) {
   const auto stored = [](const std::string& text) {
     return read_stored_barcode(Input::view(text, "b.csv"));
   };
-  const StoredBarcode read = stored("dim,birth,death,p\n0,0,inf,\n1,1,2,0.25\n1,1,3,\n");
+  // The p-values move with their bars, which are not in order here.
+  const StoredBarcode read = stored("dim,birth,death,p\n1,1,2,0.25\n0,0,inf,\n1,1,3,\n");
   ASSERT_EQ(read.bars.size(), 3U);
   EXPECT_EQ(read.bars[1], (Bar{1, 1, 2}));
-  EXPECT_EQ(read.left_out, std::vector<std::string>{"p"});
+  ASSERT_EQ(read.p_values.size(), 3U);
+  EXPECT_TRUE(std::isnan(read.p_values[0]) && std::isnan(read.p_values[2]));
+  EXPECT_EQ(read.p_values[1], 0.25);
+  EXPECT_TRUE(read.left_out.empty());
   for (const char* p : {"1.5", "-0.1", "x"})
     EXPECT_TRUE(
         contains(bad_data([&] { stored("dim,birth,death,p\n0,0,1," + std::string(p) + "\n"); }),
@@ -82,7 +86,7 @@ TEST(ReadBarcode, ColumnsByName) {
     EXPECT_TRUE(is_barcode(Input::view(text, "b.csv")));
   }
   EXPECT_EQ(read_stored_barcode(Input::view("dim,birth,death,lifetime,p\n", "b.csv")).left_out,
-            (std::vector<std::string>{"lifetime", "p"}));
+            std::vector<std::string>{"lifetime"});
   const auto refused = [](const std::string& text, const std::string& place) {
     EXPECT_TRUE(contains(bad_data([&] { back(text, "b.csv"); }), "b.csv:" + place)) << text;
   };

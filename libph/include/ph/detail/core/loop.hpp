@@ -43,6 +43,13 @@ enum class Tightness {
   shortest,  ///< no closed walk that could replace a loop is shorter, see ph/loops.hpp
 };
 
+template <>
+inline constexpr std::array names_of<Tightness>{
+    Named{Tightness::none, "no"},
+    Named{Tightness::locally, "locally"},
+    Named{Tightness::shortest, "shortest"},
+};
+
 /// The loops of a bar of H1: multiplied by their coefficients, they sum to a cycle that represents
 /// the bar.
 struct BarLoops {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <array>
 #include <bit>
 #include <concepts>
 #include <cstddef>
@@ -124,6 +125,11 @@ class Input {
   std::string member_;
   const RunContext* context_ = nullptr;
 };
+
+/// An affine map from the indices (i, j, k) of a voxel to the coordinates of its centre in space:
+/// row r gives coordinate r as a[r][0] i + a[r][1] j + a[r][2] k + a[r][3]. The unit is the unit of
+/// the file.
+using Affine = std::array<std::array<double, 4>, 3>;
 
 /// The lines of a text input that carry data. Comments and blank lines are skipped; a byte order
 /// mark and CRLF are accepted. A comment runs from '#' to the end of the line, unless the '#' is
