@@ -31,6 +31,7 @@
 #include "ph/detail/facade/adjust.hpp"
 #include "ph/detail/report/shown_tree.hpp"
 #include "ph/estimate.hpp"
+#include "ph/io/save.hpp"
 #include "ph/loops.hpp"
 
 namespace ph::barcode {
@@ -275,12 +276,15 @@ class Run {
 
   BarcodeInfo info_of(const Loaded& loaded, const RunPlan& plan) const {
     const BuiltComplex& built = loaded.built;
-    BarcodeInfo info;
+    BarcodeInfo info = ph::info_of(built.complex, plan, context());
     info.program = app::program_and_version("ph-barcode");
     info.input = job_.places.input;
     info.input_description = loaded.description;
+    info.points = loaded.points;
+    info.coordinates = loaded.coordinates;
+    info.affine = loaded.affine;
+    info.nan_dropped = loaded.nan_dropped;
     info.complex = built.name;
-    info.field = job_.question.options.field;
     info.max_dim = job_.question.options.max_dim.value_or(*plan.options.max_dim);
     info.threshold = built.threshold;
     info.metric = built.metric;
@@ -288,11 +292,6 @@ class Run {
     info.subsample = built.subsample;
     info.voxels = built.voxels;
     info.alpha = built.alpha;
-    if (built.cubical) describe(*built.cubical, info);
-    info.approximation = job_.question.rips.approximation;
-    info.min_persistence = job_.question.options.min_persistence;
-    info.min_dim = job_.question.options.min_dim;
-    info.engine = plan.options.engine.name();
     info.timings = watch_.laps();
     info.peak_memory = app::peak_memory();
     return info;

@@ -75,6 +75,13 @@ bool may_be_bars(const ReadResult& read) {
   return true;
 }
 
+/// The number of points between which distances are given. Empty for other data.
+std::optional<Index> number_of_points(const ReadResult& read) {
+  if (const auto* dense = std::get_if<DistanceMatrix>(&read.data)) return dense->size();
+  if (const auto* sparse = std::get_if<SparseDistances>(&read.data)) return sparse->size();
+  return std::nullopt;
+}
+
 /// Throws the error for data that could not be read, with a hint if they can be read as bars.
 [[noreturn]] void fail_to_read(const Job& job, const Error& error, Format format,
                                const RunContext& context) {
@@ -132,6 +139,12 @@ Loaded load(const Job& job, std::optional<Input>& input, app::Session& session, 
   auto claim = std::make_unique<MemoryClaim>(session.context().memory, size_of(read));
   std::string description = read.description;
   std::vector<Index> point_ids = read.point_ids;
+  const std::optional<PointsView> view = points_of(read);
+  const auto points = view ? std::optional(view->rows()) : number_of_points(read);
+  const auto affine = read.affine;
+  const bool drops_nan =
+      dropped > 0 || (is_given(job, "nan") && job.reading.options.nan == NanPolicy::drop);
+  const auto coordinates = view ? std::optional(view->cols()) : std::nullopt;
   if (const std::string_view why = why_no_nan(read); is_given(job, "nan") && !why.empty())
     session.note(fmt::format("{}: --nan does nothing: {}", name, why));
   const bool is_shown =
@@ -150,7 +163,9 @@ Loaded load(const Job& job, std::optional<Input>& input, app::Session& session, 
     throw Error(ErrorKind::bad_data,
                 fmt::format("{}: no points; --allow-empty accepts that", mark_place(name)));
   const bool refers_to_data = std::holds_alternative<Rips>(built.complex);
-  Loaded loaded{std::move(built), name, std::move(description), std::move(point_ids)};
+  Loaded loaded{
+      std::move(built), name,     std::move(description), std::move(point_ids), points, coordinates,
+      affine,           drops_nan};
   if (is_shown || refers_to_data) {
     loaded.data = std::move(data);
     loaded.claim = std::move(claim);

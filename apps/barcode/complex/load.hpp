@@ -36,6 +36,10 @@ struct Loaded {
   std::string name;  ///< the name of the input, printable
   std::string description;
   std::vector<Index> point_ids;
+  std::optional<Index> points;  ///< the number of points; empty for data without points
+  std::optional<Index> coordinates;
+  std::optional<Affine> affine;  ///< of an image, as its file states it
+  bool nan_dropped = false;      ///< points or voxels with NaN are left out, as requested
   // The data that the complex refers to or that a report shows. Their memory is counted in the
   // budget.
   std::optional<NamedData> data = {};

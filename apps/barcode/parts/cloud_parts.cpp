@@ -25,6 +25,9 @@ BarcodeInfo info_of(const CloudPart& part, const std::string& description,
   info.program = app::program_and_version("ph-barcode");
   info.input = input;
   info.input_description = description;
+  info.points = part.points();
+  info.coordinates = part.coordinates();
+  info.vertices = part.points();
   info.complex = "rips";
   info.metric = metric_name(PointDistance::euclidean);
   info.threshold = part.threshold();

@@ -60,6 +60,7 @@ BarcodeInfo info_of(const ImagePart& part, const std::string& description, const
   info.program = app::program_and_version("ph-barcode");
   info.input = input;
   info.input_description = description;
+  info.shape = part.extents();
   info.complex = "cubical";
   info.field = field;
   info.max_dim =

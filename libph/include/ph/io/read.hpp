@@ -321,6 +321,8 @@ struct ReadResult {
   /// For an Image: true for each axis that closes up on itself, according to the file. Empty if no
   /// axis does.
   std::vector<bool> periodic;
+  /// For an Image: the places of its voxels in space, if the file (NIfTI) states them.
+  std::optional<Affine> affine;
 };
 
 /// One line of the table of formats: a name, a description, and a line of an example.
