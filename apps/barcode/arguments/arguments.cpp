@@ -137,13 +137,12 @@ void add_output_options(app::Options& options, Job& job) {
 void add_picture_options(app::Options& options, app::PlotArguments& plots) {
   app::add_plot_options(options, kPlotKinds,
                         "draw the barcode, or the merge tree of H0 (repeatable)", plots);
-  app::add_plot_look(
-      options, {"--dims", [](const app::Plot& plot) { return plot.shows_bars(); }, "bars"}, "D,…",
-      "dimensions that plots show (default: all that there are)", plots,
-      [&plots](const std::string& text) {
-        for (const std::int64_t dim : app::parse_integers("--dims", text, 0, 1'000'000))
-          plots.look.dims.push_back(static_cast<int>(dim));
-      });
+  options.value({"--dims", plots.scope}, "D,…",
+                "dimensions of the bars that are written and drawn (default: all that there are)",
+                [&plots](const std::string& text) {
+                  for (const std::int64_t dim : app::parse_integers("--dims", text, 0, 1'000'000))
+                    plots.look.dims.push_back(static_cast<int>(dim));
+                });
 }
 
 /// Handles `ph-barcode plot BARS… -o FILE.svg`, which draws stored barcodes.
@@ -195,6 +194,9 @@ void check_together(Job& job) {
     reject(fmt::format(
         "--report: standard output already has the {}; use -o FILE or --output-format none",
         job.compare.empty() ? "barcode" : "distances"));
+  if (!job.results.look.dims.empty() && job.results.output_format == BarcodeFormat::none &&
+      std::ranges::none_of(job.places.plots, &app::Plot::shows_bars))
+    reject("--dims: found no output with bars, expected -o FILE or --plot FILE");
   check_part_arguments(job);
   if (!job.compare.empty()) {
     if (!job.inputs.empty())

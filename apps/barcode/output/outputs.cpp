@@ -5,6 +5,46 @@
 
 namespace ph::barcode {
 
+namespace {
+
+/// The bars of some dimensions, with everything that is known about them.
+struct Chosen {
+  Barcode bars;
+  std::vector<BarLoops> loops;
+  std::vector<double> p_values;
+
+  Chosen(const Barcode& all, const BarcodeInfo& info, std::span<const int> dims)
+      : bars(all.cell_kind()) {
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      if (std::ranges::find(dims, all[i].dim) == dims.end()) continue;
+      add(all, i);
+      if (!info.loops.empty()) loops.push_back(info.loops[i]);
+      if (!info.p_values.empty()) p_values.push_back(info.p_values[i]);
+    }
+  }
+
+ private:
+  void add(const Barcode& all, std::size_t i) {
+    const auto death = all.death_cell(i);
+    bars.add(all[i], all.birth_cell(i).numbers, death ? death->numbers : std::span<const Index>());
+    if (all.representatives() == Representatives::none) return;
+    const InputChain chain = all.representative(i);
+    std::vector<Index> numbers;
+    std::vector<std::int64_t> coefficients;
+    for (std::size_t k = 0; k < chain.size(); ++k) {
+      const std::span<const Index> cell = chain.cell(k).numbers;
+      numbers.insert(numbers.end(), cell.begin(), cell.end());
+      coefficients.push_back(chain.coefficient(k));
+    }
+    bars.set_representative(all.representatives(), numbers, coefficients);
+    if (all.representatives() != Representatives::voxels) return;
+    const std::size_t begin = bars.store_voxels(all.voxels(i));
+    bars.set_voxels({begin, begin + all.voxels(i).size()}, all.birth_voxel(i), all.death_voxel(i));
+  }
+};
+
+}  // namespace
+
 Outputs::Outputs(const Places& places) : places_(places) {
   if (places.format != BarcodeFormat::none) barcode_.emplace(places.output);
   for (const app::Plot& plot : places.plots) plots_.emplace_back(plot.path);
@@ -36,7 +76,16 @@ void Outputs::write(const Barcode& bars, const BarcodeInfo& info, const PlotOpti
   // Drawing a picture may run out of memory. Therefore no file is completed before all pictures are
   // drawn.
   if (barcode_) {
-    write_barcode(barcode_->file(), bars, places_.format, info);
+    if (look.dims.empty()) {
+      write_barcode(barcode_->file(), bars, places_.format, info);
+    } else {
+      const Chosen chosen(bars, info, look.dims);
+      BarcodeInfo of_chosen = info;
+      of_chosen.dims = look.dims;
+      of_chosen.loops = chosen.loops;
+      of_chosen.p_values = chosen.p_values;
+      write_barcode(barcode_->file(), chosen.bars, places_.format, of_chosen);
+    }
     barcode_->commit();
   }
   for (app::Output& plot : plots_) plot.commit();

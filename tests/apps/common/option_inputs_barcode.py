@@ -83,7 +83,7 @@ def rows(Row):
         "--output-format": Row("--output-format", "json"),
         "--plot": Row("--plot", "x.svg"),
         "--plot-kind": Row("--plot-kind", "betti", beside=plot),
-        "--dims": Row("--dims", "9", beside=plot),
+        "--dims": Row("--dims", "9"),
         "--title": Row("--title", "Loops", beside=plot),
         "--size": Row("--size", "300x200", beside=plot),
         "--axis": Row("--axis", "0.25,0.5", beside=plot),
