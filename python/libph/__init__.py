@@ -51,6 +51,7 @@ _NAMES = {
                "NotBuiltIn OutputError Timeout UsageError",
     "_estimate": "Estimate estimate",
     "_files": "Boundary Mesh Simplices read read_barcode",
+    "_images": "SpatialImage write_nifti",
     "_parts": "CloudPart ImageLoops ImagePart cloud_part image_part join_parts",
     "_points": "Subsample collapse delay_embedding distance_to_measure farthest_points point_image",
     "_report": "Report report",

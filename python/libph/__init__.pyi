@@ -10,6 +10,7 @@ from ._errors import (Cancelled, DataError, Error, InternalError, MemoryLimitErr
                       MissingInputError, NotBuiltIn, OutputError, Timeout, UsageError)
 from ._estimate import Estimate, estimate
 from ._files import Boundary, Mesh, Simplices, read, read_barcode
+from ._images import SpatialImage, write_nifti
 from ._parts import CloudPart, ImageLoops, ImagePart, cloud_part, image_part, join_parts
 from ._points import (Subsample, collapse, delay_embedding, distance_to_measure, farthest_points,
                       point_image)
@@ -31,8 +32,8 @@ __all__ = [
     "DataError", "Error", "Estimate", "ImageLoops", "ImagePart", "InternalError", "LabelTracker",
     "Loop", "Matching", "MemoryLimitError", "MergeTree", "Mesh", "MissingInputError", "NotBuiltIn",
     "Objects", "OutputError", "PermutationTest", "PiecewiseLinear", "PointImage", "Report",
-    "SceneSurface", "Segment", "Segmentation", "Simplices", "StepFunction", "Subsample", "Surface",
-    "Timeout", "Tracked", "UsageError", "Voxels", "__version__",
+    "SceneSurface", "Segment", "Segmentation", "Simplices", "SpatialImage", "StepFunction",
+    "Subsample", "Surface", "Timeout", "Tracked", "UsageError", "Voxels", "__version__",
     "alpha", "alpha_shape", "barycentre", "batch",
     "bottleneck", "bottleneck_matching", "boundary", "cloud_part", "collapse", "confidence_band",
     "confidence_radius", "cubical", "delay_embedding", "diagram_distances", "diagram_kernels",
@@ -40,5 +41,5 @@ __all__ = [
     "estimate", "euler_curve", "farthest_points", "filtered", "gradients", "image_part",
     "join_parts", "limits", "lower_star",
     "merge_tree", "p_values", "permutation_test", "point_image", "read", "read_barcode", "report",
-    "rips", "segment", "sliced_wasserstein", "wasserstein", "wasserstein_matching",
+    "rips", "segment", "sliced_wasserstein", "wasserstein", "wasserstein_matching", "write_nifti",
 ]

@@ -12,6 +12,7 @@ from numpy.typing import DTypeLike, NDArray
 
 from . import _core, _errors, _options, _results, _run
 from ._barcodes import Barcode
+from ._images import SpatialImage
 from ._results import weights_in
 
 if TYPE_CHECKING:
@@ -110,7 +111,8 @@ def read(path: str | os.PathLike[str], format: str | None = None, *,
     Returns
     -------
     ndarray, coo_array, Simplices, Boundary or Mesh
-        Points (n, d), distances (n, n), an image, or sparse distances, depending on the file.
+        Points (n, d), distances (n, n), an image, or sparse distances, depending on the file. An
+        image whose file (NIfTI) states the places of its voxels is a `SpatialImage`.
     """
     return _answer(found_by(**locals()))
 
@@ -184,6 +186,8 @@ def _is_barcode(path: bytes) -> bool:
 
 def _answer(found: dict[str, Any]) -> Any:
     kind = found["kind"]
+    if kind == "image" and found["affine"] is not None:
+        return SpatialImage(np.asarray(found[kind]), [*found["affine"], [0, 0, 0, 1]])
     if kind in ("points", "distances", "image"):
         return np.asarray(found[kind])
     if kind == "sparse":

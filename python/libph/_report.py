@@ -59,7 +59,7 @@ class Report:
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Writes the page to a file, completely or not at all."""
-        _run.run(_core.write_page, _options.path_of(path), self._page, options={})
+        _run.run(_core.write_file, _options.path_of(path), self._page, options={})
 
     def __repr__(self) -> str:
         return f"Report({self.title!r}, {len(self._page) / 1e6:.1f} MB)"

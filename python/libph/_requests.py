@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from . import _arrays, _core, _options, _results, _run
 from ._errors import (Cancelled, DataError, Error, MemoryLimitError, NotBuiltIn, UsageError,
                       reworded)
+from ._images import affine_of
 from ._simplices import joined_values, simplex_list
 from ._sources import Source, metric_name, source_of
 
@@ -307,8 +308,11 @@ def cubical_request(o: dict[str, Any]) -> Request:
     """The request for the image and all keywords of `cubical`."""
     _run.check_names("cubical", o["run"], o)
     image, nan = o["image"], _options.choice("nan", o["nan"], ["error", "drop"])
+    affine = affine_of(image)
     if isinstance(image, PointImage):
         image, nan = image.image, "drop"
+    elif hasattr(image, "dataobj"):  # an image of nibabel
+        image = image.dataobj
     array = _arrays.as_image(image)
     construction = _options.choice("construction", o["construction"], ["vertices", "cells"])
     superlevel = _options.flag("superlevel", o["superlevel"])
@@ -319,7 +323,7 @@ def cubical_request(o: dict[str, Any]) -> Request:
     task = _task_of(o, _loops_of(o, "plain"), (*_CHAINS, "voxels"))
     recipe = _core.cubical_recipe(array, nan == "drop", _arrays.is_mapped_file(image),
                                   construction == "vertices", superlevel, periodic, threshold)
-    meta = _meta("cubical", o, shape=array.shape, construction=construction, superlevel=superlevel,
+    meta = _meta("cubical", o, shape=array.shape, affine=affine, construction=construction, superlevel=superlevel,
                  periodic=tuple(int(k) for k in np.flatnonzero(periodic)),
                  nan=None if nan == "error" else nan)
     return Request(recipe, task, o["run"], meta, layers)

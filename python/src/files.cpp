@@ -152,6 +152,7 @@ py::dict read(const std::string& path, const std::string& format_name,
   answer["notes"] = notes;
   answer["dropped"] = dropped;
   answer["periodic"] = result.periodic;
+  answer["affine"] = result.affine;
   return answer;
 }
 

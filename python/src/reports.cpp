@@ -110,8 +110,8 @@ py::bytes page_of_scene(const SegmentedScene& scene, const std::string& title, c
   return run(options, false, [&](const RunContext& context) { return text_of(page, context); });
 }
 
-void write_page(const std::string& path, const py::bytes& page, const RunOptions& options) {
-  const auto text = static_cast<std::string_view>(page);
+void write_bytes(const std::string& path, const py::bytes& content, const RunOptions& options) {
+  const auto text = static_cast<std::string_view>(content);
   run_task(options, false, [&](const SharedContext&) { write_file(path, text); });
 }
 
@@ -124,7 +124,7 @@ void bind_reports(py::module_& m) {
         py::arg("notes"), py::arg("run"));
   m.def("page_of_scene", &page_of_scene, py::arg("scene"), py::arg("title"), py::arg("meta"),
         py::arg("warnings"), py::arg("run"));
-  m.def("write_page", &write_page, py::arg("path"), py::arg("page"), py::arg("run"));
+  m.def("write_file", &write_bytes, py::arg("path"), py::arg("content"), py::arg("run"));
 }
 
 }  // namespace ph::python

@@ -102,7 +102,9 @@ ReadResult pgm_result(const Input& input, const ReadOptions&) {
   return result_of(detail::read_pgm_image(input), "PGM");
 }
 ReadResult nifti_result(const Input& input, const ReadOptions& options) {
-  return result_of(read_nifti(input, options), "NIfTI-1");
+  ReadResult result = result_of(read_nifti(input, options), "NIfTI-1");
+  result.affine = detail::nifti_affine(input);
+  return result;
 }
 ReadResult raw_result(const Input& input, const ReadOptions& options) {
   if (!options.raw)

@@ -15,7 +15,7 @@ from .. import _core, _options, _run
 from .._errors import UsageError
 from .._results import Meta, origin_of, require_version, with_arrays
 from .._vectors import Summaries
-from . import _layouts, _output
+from . import _layouts, _output, _places
 from ._cells import Cells
 
 if TYPE_CHECKING:
@@ -338,10 +338,28 @@ class Barcode(Cells, Summaries, Sequence[Bar]):
         """
         return _layouts.in_layout(self, layout)
 
-    def to_pandas(self) -> pandas.DataFrame:
-        """A table with the columns dim, birth, death."""
+    def to_pandas(self, places: bool = False) -> pandas.DataFrame:
+        """A table with the columns dim, birth, death, and p if the bars have p-values.
+
+        Parameters
+        ----------
+        places : bool
+            Add columns that say where the hole of each bar is. For bars of points or simplices:
+            `birth_vertices` and `death_vertices`, the vertices of its cells. For images, which need
+            ``representatives="voxels"``: the voxels whose values are the birth and the death
+            (`birth_0`, `birth_1`, … by axis, and `death_0`, …), the mean place of the bar's voxels
+            or of its cycle (`centroid_0`, …) and the number of its voxels (`voxels`, 0 for a
+            cycle). If the image has an `affine`, also the same places in its space (`birth_x`,
+            `birth_y`, `birth_z`, …) and, in three axes, the `volume` of the voxels. NaN or None:
+            the bar never dies.
+        """
         import pandas
-        return pandas.DataFrame(dict(zip(("dim", "birth", "death"), map(np.array, self._arrays))))
+        columns: dict[str, Any] = dict(zip(("dim", "birth", "death"), map(np.array, self._arrays)))
+        if self.p_values is not None:
+            columns["p"] = self.p_values
+        if _options.flag("places", places):
+            columns |= _places.columns_of_places(self)
+        return pandas.DataFrame(columns)
 
     def save(self, path: str | os.PathLike[str], format: str | None = None) -> None:
         """Writes the barcode to a file, completely or not at all.

@@ -10,6 +10,8 @@ from numpy.typing import NDArray
 
 from .. import _core, _options
 from .._errors import UsageError
+from .._images import SpatialImage
+from . import _places
 from ._chains import Chain
 
 
@@ -105,6 +107,34 @@ class Cells:
         mask = np.zeros(self._require_voxels(), dtype=bool)
         mask.reshape(-1)[np.asarray(self._bars.voxels(self._place(i)))] = True
         return mask
+
+    def labels(self, dim: int) -> SpatialImage:
+        """A label image: at each voxel i + 1, if the voxel belongs to bar i of a dimension, or 0.
+
+        If a voxel belongs to several bars, whose sets of voxels are nested, the smallest set
+        counts. The voxels of the component that never dies are all voxels: ``bars.filter`` leaves
+        bars out. The image has the `affine` of the barcode.
+
+        Examples
+        --------
+        >>> bars = ph.cubical([0, 5, 1, 6, 2], representatives="voxels")
+        >>> [tuple(bar) for bar in bars]
+        [(0, 0.0, inf), (0, 1.0, 5.0), (0, 2.0, 6.0)]
+        >>> bars.labels(0)
+        SpatialImage([1, 1, 2, 1, 3], dtype=uint32)
+        """
+        labels = _places.label_image(self, _options.whole("dim", dim, 0))  # type: ignore[arg-type]
+        return SpatialImage(labels, self.affine)
+
+    @property
+    def affine(self) -> NDArray[np.float64] | None:
+        """The map from voxels to the space of the scan as a matrix (4, 4), or None.
+
+        It maps (i, j, k, 1) to (x, y, z, 1), as in nibabel. The unit is the unit of the file, which
+        usually is the millimetre.
+        """
+        rows = self.meta.get("affine")
+        return None if rows is None else np.array([*rows, (0, 0, 0, 1)], dtype=np.float64)
 
     def birth_voxel(self, i: int) -> tuple[int, ...]:
         """The voxel whose value is the birth of bar i."""

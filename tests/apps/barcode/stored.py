@@ -8,6 +8,7 @@ import re
 import struct
 import sys
 import xml.etree.ElementTree
+from random import Random
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../support"))
 from program import SQUARE, SQUARE_CSV, ProgramTest, files, main  # noqa: E402
@@ -252,11 +253,53 @@ class Stored(ProgramTest):
                               ("--axis", "2,1"), ("--axis", "0,1,log"), ("--axis", "0"),
                               ("--axis", "0,inf"), ("--dims", "-1"), ("--dims", "x")):
             self.assertIn(option, self.expect(64, *draw, option, value).stderr)
-        for option, value in (("--size", "9x9"), ("--title", "x"), ("--dims", "0"), ("--axis", "log")):
+        for option, value in (("--size", "9x9"), ("--title", "x"), ("--axis", "log")):
             self.assertIn("needs --plot", self.expect(64, "square.txt", option, value).stderr)
-        for option, value in (("--dims", "1"),):
-            self.assertIn(option, self.expect(64, "square.txt", "--plot", "t.svg", "--plot-kind",
-                                              "tree", option, value).stderr)
+        self.assertIn("--dims: found no output with bars", self.expect(
+            64, "square.txt", "--plot", "t.svg", "--plot-kind", "tree", "--output-format", "none",
+            "--dims", "1").stderr)
+
+    def test_places_of_voxels(self):
+        """A table of sets of voxels says where they are, in space if the file does."""
+        self.write("v.npy", files.array((3, 4), [4, 1, 5, 9, 2, 7, 3, 9, 5, 0, 5, 9]))
+        rows = self.expect(0, "v.npy", "--representatives", "voxels", "--max-dim", "0").stdout
+        self.assertEqual(rows.splitlines(), [
+            "dim,birth,death,birth_0,birth_1,death_0,death_1,centroid_0,centroid_1,voxels",
+            "0,0,inf,2,1,,,1,1.5,12", "0,1,5,0,1,2,0,0.3333333333333333,0.3333333333333333,3",
+            "0,2,4,1,0,0,0,1,0,1",
+            "0,3,5,1,2,0,2,1,2,1"])
+        self.write("rows.csv", rows)
+        again = self.expect(0, "rows.csv")
+        self.assertEqual(again.stdout, "".join(",".join(row.split(",")[:3]) + "\n"
+                                               for row in rows.splitlines()))
+        self.expect(0, "v.npy", "--representatives", "voxels", "-o", "v.json")
+        self.assertEqual(self.expect(0, "v.json", "--dims", "0").stdout, rows)
+        self.assertIn("expected json, or csv for a table of places", self.expect(
+            64, "v.npy", "--representatives", "voxels", "--output-format", "npy").stderr)
+
+    def test_dimensions(self):
+        """--dims chooses the bars that are written, in every format, with all their data."""
+        def of_dim(text, dim):
+            return [line for line in text.splitlines()[1:] if line.startswith(f"{dim},")]
+        random = Random(3)
+        self.write("cube.npy", files.array((5, 5, 5), [random.random() for _ in range(125)]))
+        everything = self.expect(0, "cube.npy").stdout
+        for dim in "012":
+            rows = of_dim(everything, dim)
+            self.assertTrue(rows)
+            self.assertEqual(self.expect(0, "cube.npy", "--dims", dim).stdout.splitlines()[1:], rows)
+        self.assertEqual(self.expect(0, "cube.npy", "--dims", "2,0").stdout.splitlines()[1:],
+                         of_dim(everything, 0) + of_dim(everything, 2))
+        for kind in ("voxels", "cycles", "cocycles"):
+            self.expect(0, "cube.npy", "--representatives", kind, "-o", "all.json")
+            self.expect(0, "cube.npy", "--representatives", kind, "--dims", "1,2", "-o", "some.json")
+            self.expect(0, "all.json", "--dims", "1,2", "-o", "again.json")
+            whole, some = json.loads(self.read("all.json")), json.loads(self.read("some.json"))
+            self.assertEqual(some["bars"], [bar for bar in whole["bars"] if bar["dim"] > 0], kind)
+            self.assertEqual(some["dims"], [1, 2])
+            self.assertEqual(json.loads(self.read("again.json"))["bars"], some["bars"], kind)
+        note = self.expect(0, "cube.npy", "--dims", "1,5")
+        self.assertIn("--dims 5: there are no bars of this dimension", note.stderr)
 
     def test_pictures_of_superlevel_sets_name_the_values_of_the_image(self):
         self.write("row.npy", files.array((5,), [50, 10, 40, 10, 30]))

@@ -61,7 +61,7 @@ void write_barcode(OutputFile& file, const Barcode& barcode, BarcodeFormat forma
                             info.p_values.size(), barcode.size()));
   switch (format) {
     case BarcodeFormat::csv:
-      return write_barcode_csv(file, barcode, info.p_values);
+      return write_barcode_csv(file, barcode, info);
     case BarcodeFormat::json:
       return write_barcode_json(file, barcode, info);
     case BarcodeFormat::ripser:

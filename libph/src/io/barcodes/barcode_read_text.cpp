@@ -47,8 +47,21 @@ void add_at(const TextLines& lines, Barcode& barcode, const Bar& bar) {
   barcode.add(bar, {}, {});
 }
 
+/// True for the name of a column that says where a hole is, such as "birth_0" and "centroid_x".
+bool is_place(std::string_view name) {
+  if (name == "voxels" || name == "volume") return true;
+  const std::size_t bar = name.find('_');
+  if (bar == name.npos || name.size() != bar + 2) return false;
+  const std::string_view end = name.substr(0, bar);
+  const std::string_view axes = "01234567xyz";
+  return (end == "birth" || end == "death" || end == "centroid") &&
+         axes.find(name.back()) != axes.npos;
+}
+
 const Column* column_of(const std::string& name) {
   const std::string lower = lower_case(name);
+  static constexpr Column kOther = Column::other;
+  if (is_place(lower)) return &kOther;
   const auto* const found = std::ranges::find(kNames, lower, [](const auto& e) { return e.first; });
   return found == kNames.end() ? nullptr : &found->second;
 }

@@ -53,6 +53,8 @@ bool is_off(const Input& input);
 bool is_npz(const Input& input);
 bool is_pgm(const Input& input);
 bool is_nifti(const Input& input);
+/// The places of the voxels of a NIfTI file; empty if its numbers are not finite.
+std::optional<Affine> nifti_affine(const Input& input);
 bool is_dipha(const Input& input);
 
 /// True if the first bytes contain no control characters except tabs and line ends. Binary formats

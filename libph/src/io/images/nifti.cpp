@@ -19,8 +19,9 @@ constexpr std::size_t kFirstVoxel = 352;
 constexpr std::int32_t kNifti2Size = 540;
 
 // The offsets of the fields in the header.
-constexpr std::size_t kDim = 40, kDatatype = 70, kBitpix = 72, kOffset = 108, kSlope = 112,
-                      kIntercept = 116, kMagic = 344;
+constexpr std::size_t kDim = 40, kDatatype = 70, kBitpix = 72, kSizes = 76, kOffset = 108,
+                      kSlope = 112, kIntercept = 116, kQformCode = 252, kSformCode = 254,
+                      kQuaternion = 256, kShift = 268, kRows = 280, kMagic = 344;
 
 struct Datatype {
   std::int16_t code;
@@ -109,6 +110,41 @@ class Header {
                                         : ""});
   }
 
+  /// The places of the voxels: method 3 of the standard if the file has it, else method 2, else
+  /// method 1, which knows only the sizes of the voxels. Empty if a number is not usable.
+  std::optional<Affine> affine() const {
+    const auto numbers = [this](std::size_t at, std::size_t k) {
+      return double{field<float>(at + 4 * k)};
+    };
+    Affine affine{};
+    if (field<std::int16_t>(kSformCode) > 0) {
+      for (std::size_t i = 0; i < 12; ++i) affine[i / 4][i % 4] = numbers(kRows, i);
+    } else {
+      const bool is_turned = field<std::int16_t>(kQformCode) > 0;
+      const double b = is_turned ? numbers(kQuaternion, 0) : 0,
+                   c = is_turned ? numbers(kQuaternion, 1) : 0,
+                   d = is_turned ? numbers(kQuaternion, 2) : 0;
+      const double a = std::sqrt(std::max(0.0, 1 - b * b - c * c - d * d));
+      const Affine turn{
+          {{a * a + b * b - c * c - d * d, 2 * (b * c - a * d), 2 * (b * d + a * c), 0},
+           {2 * (b * c + a * d), a * a + c * c - b * b - d * d, 2 * (c * d - a * b), 0},
+           {2 * (b * d - a * c), 2 * (c * d + a * b), a * a + d * d - b * b - c * c, 0}}};
+      const double handedness = is_turned && numbers(kSizes, 0) < 0 ? -1 : 1;
+      for (std::size_t r = 0; r < 3; ++r) {
+        for (std::size_t k = 0; k < 3; ++k) {
+          const double size = numbers(kSizes, k + 1);
+          // The size of an axis that the image does not have may be 0.
+          affine[r][k] = turn[r][k] * (size == 0 ? 1 : std::abs(size)) * (k == 2 ? handedness : 1);
+        }
+        affine[r][3] = is_turned ? numbers(kShift, r) : 0;
+      }
+    }
+    for (const auto& row : affine)
+      for (const double number : row)
+        if (!std::isfinite(number)) return std::nullopt;
+    return affine;
+  }
+
   std::size_t first_voxel() const {
     const auto offset = field<float>(kOffset);
     const bool whole = offset == std::floor(offset);  // false for NaN
@@ -188,6 +224,8 @@ bool is_nifti(const Input& input) {
   const std::string_view magic = input.text().substr(kMagic, 4);
   return magic == std::string_view("n+1\0", 4) || magic == std::string_view("ni1\0", 4);
 }
+
+std::optional<Affine> nifti_affine(const Input& input) { return Header(input).affine(); }
 
 }  // namespace detail
 

@@ -54,6 +54,55 @@ TEST(ReadNifti, ScalesAndDropsTrailingAxes) {
   EXPECT_EQ(image_of(header + std::string(12, '\1'), "a.nii").values[0], 257);
 }
 
+TEST(ReadNifti, StatesThePlacesOfTheVoxels) {
+  const auto affine_of = [](const Nifti& n, auto&& change) {
+    std::string bytes = n.with(std::vector<std::int16_t>{0, 10, 1, 11, 2, 12});
+    change([&](std::size_t at, auto value) { n.put(bytes, at, value); });
+    return read_any(Input::hold({bytes.begin(), bytes.end()}, "a.nii"), Format::nifti).affine;
+  };
+  for (const bool big : {false, true}) {
+    const Nifti n{.big = big};
+    // Without a code, only the sizes of the voxels are known. The image has no third axis.
+    EXPECT_EQ(affine_of(n,
+                        [](auto&& put) {
+                          put(80, 0.5F);
+                          put(84, 2.F);
+                        }),
+              (Affine{{{0.5, 0, 0, 0}, {0, 2, 0, 0}, {0, 0, 1, 0}}}));
+    // A turn by a right angle about the third axis: a = d = sqrt(1/2).
+    const auto turned = [](float handedness) {
+      return [handedness](auto&& put) {
+        put(252, std::int16_t{1});
+        put(76, handedness);
+        for (std::size_t k = 0; k < 3; ++k) {
+          put(80 + 4 * k, static_cast<float>(k + 2));
+          put(268 + 4 * k, static_cast<float>(10 * k));
+        }
+        put(264, std::sqrt(0.5F));
+      };
+    };
+    for (const float handedness : {1.F, 0.F, -1.F}) {
+      const auto found = affine_of(n, turned(handedness));
+      const double z = handedness < 0 ? -4 : 4;
+      const Affine expected{{{0, -3, 0, 0}, {2, 0, 0, 10}, {0, 0, z, 20}}};
+      ASSERT_TRUE(found.has_value());
+      for (std::size_t r = 0; r < 3; ++r)
+        for (std::size_t k = 0; k < 4; ++k) EXPECT_NEAR((*found)[r][k], expected[r][k], 1e-6);
+    }
+    // The rows of method 3 come first.
+    const auto rows = [&](float last) {
+      return affine_of(n, [&](auto&& put) {
+        turned(1)(put);
+        put(254, std::int16_t{2});
+        for (std::size_t i = 0; i < 12; ++i)
+          put(280 + 4 * i, i == 11 ? last : static_cast<float>(i));
+      });
+    };
+    EXPECT_EQ(rows(11), (Affine{{{0, 1, 2, 3}, {4, 5, 6, 7}, {8, 9, 10, 11}}}));
+    EXPECT_EQ(rows(std::nanf("")), std::nullopt);
+  }
+}
+
 TEST(ReadNifti, ScalingKeepsToTheBudget) {
   constexpr std::int16_t side = 30;
   constexpr std::size_t voxels = std::size_t{side} * side;

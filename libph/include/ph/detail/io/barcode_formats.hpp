@@ -9,7 +9,7 @@ namespace ph {
 std::string filtration_members(const BarcodeInfo& info, std::string_view between = ", ");
 
 // One function per format; see BarcodeFormat.
-void write_barcode_csv(OutputFile& file, const Barcode& barcode, std::span<const double> p_values);
+void write_barcode_csv(OutputFile& file, const Barcode& barcode, const BarcodeInfo& info);
 void write_barcode_pers(OutputFile& file, const Barcode& barcode);
 void write_barcode_ripser(OutputFile& file, const Barcode& barcode, int max_dim);
 void write_barcode_json(OutputFile& file, const Barcode& barcode, const BarcodeInfo& info);

@@ -1,0 +1,137 @@
+# SPDX-License-Identifier: MIT
+"""Tests where holes are: tables with places, label images, and images with an affine map."""
+import pickle
+
+import numpy as np
+import pytest
+
+import libph as ph
+
+pandas = pytest.importorskip("pandas")
+
+VOLUME = np.random.default_rng(0).random((5, 6, 4))
+AFFINE = np.array([[0, -2, 0, 10], [3, 0, 0, -5], [0, 0, 0.5, 1], [0, 0, 0, 1.0]])
+
+
+@pytest.mark.parametrize("construction", ["vertices", "cells"])
+def test_places_of_voxels(construction):
+    bars = ph.cubical(VOLUME, representatives="voxels", construction=construction)
+    table = bars.to_pandas(places=True)
+    assert list(table)[:3] == ["dim", "birth", "death"] and len(table) == len(bars)
+    assert not set(table) & {"birth_x", "volume"}
+    for i, row in enumerate(table.itertuples()):
+        at = bars.birth_voxel(i)
+        assert (row.birth_0, row.birth_1, row.birth_2) == at and VOLUME[at] == row.birth
+        if bars.death_voxel(i) is None:
+            assert np.isnan([row.death_0, row.death_1, row.death_2]).all()
+        else:
+            assert VOLUME[tuple(int(row[k]) for k in range(7, 10))] == row.death
+        mask = bars.voxels(i)
+        assert row.voxels == mask.sum()
+        centre = [row.centroid_0, row.centroid_1, row.centroid_2]
+        if mask.any():
+            assert np.allclose(centre, np.argwhere(mask).mean(axis=0))
+        else:
+            cells = bars.representative(i).cells
+            assert np.allclose(centre, (cells.mean(axis=0) - (construction == "cells")) / 2)
+    # A loop lies inside the image.
+    loops = table[table.dim == 1][["centroid_0", "centroid_1", "centroid_2"]]
+    assert len(loops) and ((loops > -1) & (loops < [5, 6, 4])).all(axis=None)
+
+
+def test_places_in_space():
+    plain = ph.cubical(VOLUME, representatives="voxels").to_pandas(places=True)
+    table = ph.cubical(ph.SpatialImage(VOLUME, AFFINE), representatives="voxels").to_pandas(places=True)
+    assert plain.equals(table[list(plain)])
+    for end in ("birth", "death", "centroid"):
+        i, j, k = (table[f"{end}_{axis}"] for axis in range(3))
+        for name, expected in (("x", 10 - 2 * j), ("y", 3 * i - 5), ("z", 0.5 * k + 1)):
+            assert np.allclose(table[f"{end}_{name}"], expected, equal_nan=True)
+    assert np.allclose(table.volume, 3 * table.voxels)
+
+
+def test_places_of_points():
+    square = [[0, 0], [1, 0], [1, 1], [0, 1]]
+    table = ph.rips(square).to_pandas(places=True)
+    assert sorted(table.birth_vertices[:4]) == [(0,), (1,), (2,), (3,)]
+    assert table.birth_vertices[4] == (2, 3)
+    assert table.death_vertices.tolist()[-1] == (0, 2, 3) and table.death_vertices.isna().sum() == 1
+    assert len(ph.rips([]).to_pandas(places=True)) == 0
+    with pytest.raises(ph.UsageError, match="cells: found none, .*cells=True"):
+        ph.rips(square, cells=False).to_pandas(places=True)
+    with pytest.raises(ph.UsageError, match="voxels: found none, .*representatives='voxels'"):
+        ph.cubical(VOLUME).to_pandas(places=True)
+
+
+def test_p_values_in_tables(tmp_path):
+    (tmp_path / "p.csv").write_text("dim,birth,death,p\n1,1,3,0.25\n0,0,inf,\n")
+    assert ph.read_barcode(tmp_path / "p.csv").to_pandas().p.tolist()[1:] == [0.25]
+    assert list(ph.rips([[0], [1]]).to_pandas()) == ["dim", "birth", "death"]
+
+
+@pytest.mark.parametrize("dim", [0, 2])
+def test_labels(dim):
+    bars = ph.cubical(VOLUME, representatives="voxels")
+    labels = bars.labels(dim)
+    assert labels.shape == VOLUME.shape and labels.dtype == np.uint32
+    owners = np.zeros(VOLUME.shape, dtype=int)
+    sizes = np.full(VOLUME.shape, VOLUME.size + 1)
+    for i in np.flatnonzero(bars.dims == dim):  # by definition: the smallest set of each voxel
+        mask = bars.voxels(i)
+        smaller = mask & (mask.sum() < sizes)
+        owners[smaller], sizes[smaller] = i + 1, mask.sum()
+    assert np.array_equal(labels, owners) and (dim == 0 or (labels == 0).any())
+    with pytest.raises(ph.UsageError, match="found 1, whose bars have cycles, expected 0 or 2"):
+        bars.labels(1)
+    with pytest.raises(ph.UsageError, match="representatives='voxels'"):
+        ph.cubical(VOLUME).labels(0)
+
+
+def test_spatial_images():
+    image = ph.SpatialImage(VOLUME, AFFINE)
+    assert np.shares_memory(image, VOLUME) and np.array_equal(image.affine, AFFINE)
+    assert image[1:].affine is None and (image + 1).affine is None
+    again = pickle.loads(pickle.dumps(image))
+    assert np.array_equal(again, VOLUME) and np.array_equal(again.affine, AFFINE)
+    bars = ph.cubical(image, representatives="voxels")
+    assert np.array_equal(bars.affine, AFFINE) and np.array_equal(bars.labels(0).affine, AFFINE)
+    assert ph.cubical(VOLUME).affine is None and hash(bars.meta)
+    for wrong in (np.eye(3), np.full((4, 4), np.nan), np.ones((4, 4))):
+        with pytest.raises(ph.UsageError, match="affine: found an array of shape"):
+            ph.SpatialImage(VOLUME, wrong)
+
+
+class OfNibabel:
+    """The part of an image of nibabel that libph uses."""
+
+    affine, dataobj = AFFINE, VOLUME
+
+    def __array__(self, *_):
+        raise TypeError("Cannot convert Nifti1Image to array")
+
+
+def test_images_of_nibabel():
+    bars = ph.cubical(OfNibabel(), representatives="voxels")
+    assert bars == ph.cubical(VOLUME) and np.array_equal(bars.affine, AFFINE)
+
+
+@pytest.mark.parametrize("dtype", ["u1", "i2", ">i4", "f4", ">f8", "i1", "u2", "u4", "i8", "u8"])
+def test_nifti_there_and_back(dtype, tmp_path):
+    image = (100 * VOLUME).astype(dtype)
+    ph.write_nifti(tmp_path / "v.nii", image, AFFINE)
+    back = ph.read(tmp_path / "v.nii")
+    assert np.array_equal(back, image) and np.array_equal(back.affine, AFFINE)
+    bars = ph.cubical(back, representatives="voxels")
+    ph.write_nifti(tmp_path / "labels.nii", bars.labels(0))
+    labels = ph.read(tmp_path / "labels.nii")
+    assert np.array_equal(labels, bars.labels(0)) and np.array_equal(labels.affine, AFFINE)
+    bars.save(tmp_path / "bars.json")
+    assert np.array_equal(ph.read_barcode(tmp_path / "bars.json").affine, AFFINE)
+
+
+def test_nifti_that_is_refused(tmp_path):
+    for image, message in ((VOLUME.astype(complex), "complex128"), (np.zeros((3, 0)), r"\(3, 0\)"),
+                           (np.zeros((2,) * 8), "1 to 7 axes"), (np.zeros((40000,)), "40000")):
+        with pytest.raises(ph.UsageError, match=message):
+            ph.write_nifti(tmp_path / "v.nii", image)
+    assert not list(tmp_path.iterdir())
