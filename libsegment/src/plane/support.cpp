@@ -21,11 +21,11 @@ Extent extent_of(const PlaneSearch& search, const Sample& sample, double side = 
 }
 
 /// Adds the largest planes of some points, without faces of objects. @param rest a sample of points
-/// that are on none of the planes so far.
+/// that are on none of the planes so far. @param share the share of these points among all points.
 void add_planes(Sample rest, double share, const Vec3& viewpoint,
                 std::vector<PlaneSearch>& planes) {
-  const auto all = static_cast<double>(rest.size()) / share;
   constexpr int most_times = 8;
+  const auto all = static_cast<double>(rest.size()) / share;
   Sample things = rest;
   for (int times = 1; times < most_times; ++times) {
     PlaneSearch next = find_plane(rest, viewpoint);
