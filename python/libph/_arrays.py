@@ -53,11 +53,52 @@ def is_masked(data: Any) -> bool:
 
 def sparse_entries(matrix: Any, name: str = "X"
                    ) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.float64]]:
-    """Row, column and value of each entry that a sparse matrix stores."""
-    coo = matrix.tocoo()
+    """Row, column and value of each entry that a sparse matrix stores, as in `coordinates`."""
+    coo = coordinates(matrix, name)
+    return (coo.row.astype(np.int64), coo.col.astype(np.int64), as_float64(coo.data, name))
+
+
+def coordinates(matrix: Any, name: str, copy: bool = False) -> Any:
+    """The matrix in COO format, with the zeros that it stores as entries.
+
+    Raises
+    ------
+    DataError
+        If entries are not real numbers, or if a BSR or DIA matrix has a zero off its main diagonal:
+        such a zero may be an entry, or fill a block or a diagonal.
+    """
+    coo = matrix.tocoo(copy=copy)
     if coo.data.dtype.kind not in "biuf":
         raise DataError(f"{name}: found entries of type {coo.data.dtype}, expected real numbers")
-    return (coo.row.astype(np.int64), coo.col.astype(np.int64), as_float64(coo.data, name))
+    kind = getattr(matrix, "format", None)
+    if kind == "bsr":
+        place = _zero_of_blocks(coo)
+        what, way_out = "blocks", (".tocsr() reads such zeros as entries; .eliminate_zeros() after "
+                                   "it removes them")
+    else:
+        place = _zero_of_diagonals(matrix) if kind == "dia" else None
+        what, way_out = "diagonals", (".tocsr() removes such zeros; a CSR matrix made from rows, "
+                                      "columns and values can store them as entries")
+    if place is not None:
+        raise DataError(f"{name}: {place_of(place)}: found 0 in a matrix of format {kind}, which "
+                        f"fills its {what} with zeros, expected none off the main diagonal; {way_out}")
+    return coo
+
+
+def _zero_of_blocks(coo: Any) -> tuple[int, int] | None:
+    zeros = np.flatnonzero((coo.data == 0) & (coo.row != coo.col))
+    return (int(coo.row[zeros[0]]), int(coo.col[zeros[0]])) if len(zeros) else None
+
+
+def _zero_of_diagonals(matrix: Any) -> tuple[int, int] | None:
+    rows, columns = matrix.shape
+    for offset, diagonal in zip(matrix.offsets.tolist(), matrix.data):
+        first, end = max(0, offset), max(0, min(columns, rows + offset))
+        zeros = np.flatnonzero(diagonal[first:end] == 0)
+        if offset and len(zeros):
+            column = first + int(zeros[0])
+            return column - offset, column
+    return None
 
 
 def as_array(data: Any, name: str) -> NDArray[Any]:

@@ -160,7 +160,7 @@ class SparseDistances(Distances):
     """Distances of a sparse matrix: each stored entry is a variable."""
 
     def __init__(self, X: Any) -> None:
-        coo = X.tocoo(copy=True)
+        coo = _arrays.coordinates(X, "X", copy=True)
         self._coo, self.size = coo, coo.shape[0]
         row, column = coo.row.astype(np.int64), coo.col.astype(np.int64)
         key = np.minimum(row, column) * self.size + np.maximum(row, column)

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Tests that arrays of all kinds are read correctly and are never modified."""
 import collections
+import contextlib
 import decimal
 import fractions
 
@@ -271,6 +272,46 @@ def test_zeros_that_are_stored_are_distances():
     matrix = sparse.coo_matrix(([0.0, 2.0], ([0, 1], [1, 2])), shape=(4, 4))
     assert list(ph.rips(matrix, metric="precomputed", min_persistence=-1)) == [
         ph.Bar(0, 0, 0), ph.Bar(0, 0, 2), ph.Bar(0, 0, np.inf), ph.Bar(0, 0, np.inf)]
+
+
+def off_diagonal_ones(format):
+    """Ones in the blocks (0, 1) and (1, 0) of a matrix with two blocks per axis."""
+    ones = np.ones((2, 2))
+    return sparse.bmat([[None, ones], [ones, None]], format="coo").asformat(format)
+
+
+@pytest.mark.parametrize("format", ["coo", "csr", "csc", "dok", "lil", "bsr", "dia"])
+def test_every_format_of_sparse_matrices(format):
+    full = sparse.coo_matrix(DISTANCES + 1 - np.eye(30))
+    few = sparse.coo_matrix(np.triu(np.where(DISTANCES < 40, DISTANCES + 1, 0), 1))
+    few.data[:3] = 0
+    for matrix in (full, few):
+        expected = ph.rips(matrix, metric="precomputed", max_dim=2, min_persistence=-1)
+        if matrix is few and format in ("bsr", "dia"):
+            with pytest.raises(ph.DataError, match=f"found 0 in a matrix of format {format}"):
+                ph.rips(matrix.asformat(format), metric="precomputed")
+        else:
+            assert ph.rips(matrix.asformat(format), metric="precomputed", max_dim=2,
+                           min_persistence=-1) == expected
+    with pytest.raises(ph.DataError) if format == "dia" else contextlib.nullcontext():
+        assert ph.rips(off_diagonal_ones(format), metric="precomputed") == \
+            ph.rips(off_diagonal_ones("csr"), metric="precomputed")
+
+
+def test_what_messages_say_about_zeros_that_fill_blocks_and_diagonals():
+    """The advice in the messages gives the bars of the same matrix in CSR format."""
+    few = sparse.csr_matrix(([1.0, 2.0, 3.0], ([0, 0, 2], [1, 3, 3])), shape=(4, 4))
+    expected = ph.rips(few, metric="precomputed")
+    for format in ("bsr", "dia"):
+        given = few.tobsr((2, 2)) if format == "bsr" else few.todia()
+        with pytest.raises(ph.DataError, match=r"X: row \d, column \d: found 0 .*\.tocsr\(\)"):
+            ph.rips(given, metric="precomputed")
+        csr = given.tocsr()
+        csr.eliminate_zeros()
+        assert ph.rips(csr, metric="precomputed") == expected
+    for place, outside in ((5, 1), (-5, 1)):  # a diagonal outside the matrix has no entries
+        matrix = sparse.dia_matrix((np.array([[0.0] * 4, [1.0] * 4]), [place, outside]), shape=(4, 4))
+        assert ph.rips(matrix, metric="precomputed").deaths.tolist() == [1, 1, 1, np.inf]
 
 
 def test_entries_that_are_stored_twice():

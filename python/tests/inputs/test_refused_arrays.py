@@ -9,6 +9,9 @@ import pytest
 import scipy.sparse as sparse
 
 import libph as ph
+from libph import gradients
+from libph.compat import gph, ripser
+from libph.compat.gudhi.flag_filtration import edge_collapse
 
 NAN, INF = np.nan, np.inf
 BIG = 2**53 + 1
@@ -71,6 +74,18 @@ BAD = [
     ("three axes of distances", ph.rips, (np.zeros((2, 2, 2)),), pre, "(2, 2, 2)"),
     ("two condensed numbers", ph.rips, ([1.0, 2.0],), pre, "found 2 numbers, expected n(n-1)/2"),
     ("a sparse one that is no square", ph.rips, (sparse.coo_matrix((3, 4)),), pre, "(3, 4)"),
+    *[(f"zeros that fill a matrix of format {kind}, {name}", function, (given,), keywords,
+       f"row 0, column 2: found 0 in a matrix of format {kind}")
+      for kind, given in (("bsr", pairs((0, 3, 1)).tobsr((2, 2))),
+                          ("dia", pairs((1, 3, 1), (0, 1, 1), (1, 2, 1), (2, 3, 1)).todia()))
+      for name, function, keywords in (
+          ("rips", ph.rips, pre), ("collapse", ph.collapse, {}),
+          ("ripser", ripser.ripser, {"distance_matrix": True}),
+          ("gph", gph.ripser_parallel, pre),
+          ("weighted gph", gph.ripser_parallel, {**pre, "weights": np.ones(4)}),
+          ("reduce_graph", edge_collapse.reduce_graph, {}),
+          ("gradients", lambda X: gradients.pullback(
+              ph.rips(X.tocsr(), metric="precomputed"), X), {}))],
     ("sparse points", ph.rips, (sparse.eye(3),), {}, ".toarray() makes points of it"),
     ("a sparse image", ph.cubical, (sparse.eye(3),), {}, ".toarray()"),
     ("an image without voxels", ph.cubical, (np.zeros((3, 0)),), {}, "0"),

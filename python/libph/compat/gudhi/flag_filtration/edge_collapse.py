@@ -37,7 +37,7 @@ def reduce_graph(input_edges: Any, nb_iterations: int = 1) -> Any:
     """
     from scipy.sparse import coo_matrix
     _options.whole("nb_iterations", nb_iterations, 0)
-    edges = input_edges.tocoo()
+    edges = _arrays.coordinates(input_edges, "input_edges")
     row, column, values = _arrays.sparse_entries(edges, "input_edges")
     for wrong, expected in ((np.isnan(values), "a number"),
                             ((row == column) & (values != 0), "none on the diagonal")):
