@@ -6,7 +6,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <utility>
 
@@ -16,6 +20,9 @@
 #include "apps/common/terminal/exit_code.hpp"
 #include "apps/common/terminal/words.hpp"
 #include "apps/common/values/numbers.hpp"
+#include "ph/detail/core/files.hpp"
+#include "ph/detail/core/fingerprint.hpp"
+#include "ph/detail/io/reader.hpp"
 
 namespace ph::barcode {
 namespace {
@@ -37,10 +44,36 @@ void require_batch_options(const Job& job) {
   }
 }
 
+/// A hash of the files from which the bars of an input are computed; 0 if one of them is no regular
+/// file, because other files can be read only once.
+std::uint64_t fingerprint_of(const std::string& input, const Job& job) {
+  Fingerprint fingerprint;
+  for (const std::string& path :
+       {input, job.reading.values, job.question.vertex_weights, job.question.weights}) {
+    if (path.empty()) continue;
+    const std::filesystem::path of_file = split_member(files::path_of(path)).first;
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(of_file, error)) return 0;
+    std::ifstream file(of_file, std::ios::binary);
+    std::vector<char> block(std::size_t{1} << 16);
+    std::uint64_t size = 0;
+    do {
+      file.read(block.data(), static_cast<std::streamsize>(block.size()));
+      const auto read = static_cast<std::size_t>(file.gcount());
+      fingerprint.add(std::as_bytes(std::span(block)).first(read));
+      size += read;
+    } while (file);
+    if (!file.eof()) return 0;
+    fingerprint.add(size);
+  }
+  return fingerprint.value();
+}
+
 InputsPart::Result run_one(std::size_t number, const std::string& input, Job& job,
                            app::Session& session) {
   InputsPart::Result result;
   result.input = number;
+  result.fingerprint = fingerprint_of(input, job);
   const auto fail = [&](std::string_view what, int code) {
     result.code = code;
     result.failure = what;
@@ -58,17 +91,22 @@ InputsPart::Result run_one(std::size_t number, const std::string& input, Job& jo
   return result;
 }
 
-bool is_there(const std::string& path, const InputsPart::Whole& whole, int part,
-              std::span<const std::string> own, app::Session& session) {
-  const auto kept =
-      kept_part(path, own, session, &InputsPart::of_bytes, [&](const InputsPart& there) {
-        if (there.whole() != whole || !std::ranges::equal(there.numbers(), std::array{part}))
-          return "is not the requested part for these inputs and options";
-        const bool is_complete = std::ranges::all_of(
-            there.results(), [](const auto& result) { return result.failure.empty(); });
-        return is_complete ? "" : "has inputs that failed";
-      });
-  return kept.has_value();
+/// True if the file is this part, complete, and its inputs still have the same content.
+bool is_there(const std::string& path, const InputsPart::Whole& whole, int part, const Job& job,
+              app::Session& session) {
+  const auto why_not = [&](const InputsPart& there) -> std::string {
+    if (there.whole() != whole || !std::ranges::equal(there.numbers(), std::array{part}))
+      return "is not the requested part for these inputs and options";
+    for (const InputsPart::Result& result : there.results()) {
+      if (!result.failure.empty()) return "has inputs that failed";
+      const std::string& input = whole.inputs[result.input];
+      const std::uint64_t now = fingerprint_of(input, job);
+      if (now == 0 || now != result.fingerprint)  // mutant: part-content
+        return fmt::format("has bars of other data than {} has now", input);
+    }
+    return {};
+  };
+  return kept_part(path, session, &InputsPart::of_bytes, why_not).has_value();
 }
 
 /// The exit code of the first input that failed, or kOk if no input failed.
@@ -89,10 +127,7 @@ Outcome run_batch_part(const std::vector<std::string>& inputs, const Job& job,
   for (const std::string& input : inputs) read.add(input);
   app::require_separate(read, std::array{app::Written{"--output", path}}, job.common.force);
   const InputsPart::Whole whole{inputs, job.sharing.typed_options, parts};
-  std::vector<std::string> own;
-  for (std::size_t i = 0; i < inputs.size(); ++i)
-    if (InputsPart::part_of(i, parts) == part) own.push_back(inputs[i]);
-  if (job.sharing.resumes && is_there(path, whole, part, own, session))
+  if (job.sharing.resumes && is_there(path, whole, part, job, session))
     return {app::kOk, fmt::format("{} already exists", path)};
   // The file is opened first, so that a failure to create it is reported early.
   app::Output output(path);

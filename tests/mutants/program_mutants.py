@@ -6,7 +6,8 @@ from mutant import found_by
 
 MUTANTS = [
     *found_by("ph_barcode_parts", [
-        ("parts: the age of the input plays no part", "part-age", "continue;"),
+        ("parts: a part of other voxels is kept", "part-voxels", "return true;"),
+        ("parts: a part of other files is kept", "part-content", "|| now != result.fingerprint", ""),
         ("parts: part 1 is the second", "part-number", "- 1", "% static_cast<int>(parts)"),
         ("parts: a part that is there twice is taken twice", "part-twice", ") throw", "&& number < 0) throw"),
         ("parts: an input that failed is not told of", "part-failed", "return app::kOk;"),

@@ -61,7 +61,7 @@ void add_part_options(app::Options& options, Job& job) {
                      "take the parts that are there: a run that died goes on. Loops of "
                      "volumes are computed anew"
                    : "with --part: nothing is done if the output is that part already, "
-                     "whole, and not older than the input",
+                     "whole, and made from the same data",
                job.sharing.resumes);
   options.flag({"--keep-cells", kOffRanks},
                "with --part of an image: keep the cells of bars, which JSON shows",

@@ -37,11 +37,10 @@ CloudInput read_cloud_input(const std::string& input, const Job& job, app::Sessi
   return cloud;
 }
 
-std::optional<CloudPart> kept_cloud_part(const std::string& path, const std::string& input,
-                                         const CloudInput& cloud, int part, int parts,
-                                         app::Session& session) {
+std::optional<CloudPart> kept_cloud_part(const std::string& path, const CloudInput& cloud, int part,
+                                         int parts, app::Session& session) {
   return kept_part(
-      path, std::span(&input, 1), session,
+      path, session,
       [&](std::span<const std::byte> bytes) {
         return CloudPart::of_bytes(bytes, session.context());
       },

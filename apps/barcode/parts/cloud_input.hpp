@@ -22,10 +22,9 @@ struct CloudInput {
 /// requested.
 CloudInput read_cloud_input(const std::string& input, const Job& job, app::Session& session);
 
-/// The part in a file, if it is this part of this cloud, complete, and not older than the cloud.
-/// Otherwise the part must be computed again.
-std::optional<CloudPart> kept_cloud_part(const std::string& path, const std::string& input,
-                                         const CloudInput& cloud, int part, int parts,
-                                         app::Session& session);
+/// The part in a file, if it is this part of this cloud and complete. Otherwise the part must be
+/// computed again.
+std::optional<CloudPart> kept_cloud_part(const std::string& path, const CloudInput& cloud, int part,
+                                         int parts, app::Session& session);
 
 }  // namespace ph::barcode

@@ -54,7 +54,7 @@ Outcome run_cloud_part(const std::string& input, const Job& job, app::Session& s
       part_path(job.places.output, app::output_names({input}).front(), part, parts);
   const CloudInput cloud = read_cloud_input(input, job, session);
   if (job.results.dry_run) return foresee(cloud, parts, "");
-  if (job.sharing.resumes && kept_cloud_part(path, input, cloud, part, parts, session))
+  if (job.sharing.resumes && kept_cloud_part(path, cloud, part, parts, session))
     return {app::kOk, fmt::format("{} already exists", path)};
   app::InputFiles inputs;
   inputs.add(input);

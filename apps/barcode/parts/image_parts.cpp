@@ -73,11 +73,10 @@ BarcodeInfo info_of(const ImagePart& part, const std::string& description, const
   return info;
 }
 
-std::optional<ImagePart> kept_image_part(const std::string& path, const std::string& input,
-                                         const PartInput& image, int part, int parts,
-                                         app::Session& session) {
+std::optional<ImagePart> kept_image_part(const std::string& path, const PartInput& image, int part,
+                                         int parts, app::Session& session) {
   return kept_part(
-      path, std::span(&input, 1), session,
+      path, session,
       [&](std::span<const std::byte> bytes) {
         return ImagePart::of_bytes(bytes, session.context());
       },
@@ -101,7 +100,7 @@ Outcome run_image_part(const std::string& input, const Job& job, app::Session& s
   app::require_in_scope(job.given, kImagePart, name_of(kImagePart));
   const PartInput read = read_part_input(input, job.sharing.keeps_cells, job, session);
   if (job.results.dry_run) return foresee(read, parts, "");
-  if (job.sharing.resumes && kept_image_part(path, input, read, part, parts, session))
+  if (job.sharing.resumes && kept_image_part(path, read, part, parts, session))
     return {app::kOk, fmt::format("{} already exists", path)};
   app::InputFiles inputs;
   inputs.add(input);

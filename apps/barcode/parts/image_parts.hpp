@@ -22,11 +22,10 @@ Outcome foresee(const PartInput& read, int parts, std::string_view process);
 /// @throws Error (usage) if the input is not an image.
 Outcome run_image_part(const std::string& input, const Job& job, app::Session& session);
 
-/// The part in a file, if it is this part of this image, complete, and not older than the image.
-/// Otherwise the part must be computed again.
-std::optional<ImagePart> kept_image_part(const std::string& path, const std::string& input,
-                                         const PartInput& image, int part, int parts,
-                                         app::Session& session);
+/// The part in a file, if it is this part of this image and complete. Otherwise the part must be
+/// computed again.
+std::optional<ImagePart> kept_image_part(const std::string& path, const PartInput& image, int part,
+                                         int parts, app::Session& session);
 
 /// Joins parts of an image and writes the bars, or one part. @throws Error (bad_data), which names
 /// the files, if parts do not belong together or some are missing.

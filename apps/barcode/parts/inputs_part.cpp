@@ -52,6 +52,7 @@ std::vector<std::byte> InputsPart::bytes() const {
   to.put_list(numbers_, [&](int number) { to.put(std::int32_t{number}); });
   to.put_list(results_, [&](const Result& result) {
     to.put(std::uint64_t{result.input});
+    to.put(result.fingerprint);
     to.put(std::int32_t{result.code});
     to.put(std::string_view(result.failure));
     to.put_list(result.bars, [&](const Bar& bar) {
@@ -77,10 +78,11 @@ InputsPart InputsPart::of_bytes(std::span<const std::byte> bytes) {
       std::ranges::adjacent_find(part.numbers_, std::ranges::greater_equal()) !=
           part.numbers_.end())
     from.refuse("number");
-  constexpr std::size_t bytes_of_result = 28, bytes_of_bar = 20;
+  constexpr std::size_t bytes_of_result = 36, bytes_of_bar = 20;
   part.results_.resize(from.count(bytes_of_result, "results"));
   for (Result& result : part.results_) {
     result.input = static_cast<std::size_t>(from.get<std::uint64_t>("input"));
+    result.fingerprint = from.get<std::uint64_t>("fingerprint");
     result.code = from.get<std::int32_t>("code");
     result.failure = from.text("failure");
     for (std::size_t left = from.count(bytes_of_bar, "bars"); left > 0; --left) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <string>
 #include <string_view>
@@ -22,8 +23,10 @@ class InputsPart {
   };
   struct Result {
     std::size_t input = 0;  ///< the number of the input
-    int code = 0;           ///< the exit code of the program for this input
-    std::string failure;    ///< the reason if the input failed; empty otherwise
+    /// Of the files that were read for the input; 0 if one of them is no regular file.
+    std::uint64_t fingerprint = 0;
+    int code = 0;         ///< the exit code of the program for this input
+    std::string failure;  ///< the reason if the input failed; empty otherwise
     Barcode bars;
   };
 

@@ -31,10 +31,8 @@ std::string part_path(const std::string& output, const std::string& name, int pa
 /// The whole content of a part file. @throws Error like Input::open.
 std::vector<std::byte> read_part_file(const std::string& path, app::Session& session);
 
-/// The file that --resume may keep. Returns the whole content of an existing part file, if no input
-/// is newer than this file.
+/// The file that --resume may keep: the whole content of the file, if it exists.
 std::optional<std::vector<std::byte>> kept_part_file(const std::string& path,
-                                                     std::span<const std::string> inputs,
                                                      app::Session& session);
 
 /// The part in a file, for --resume. If the file is damaged or contains another part, a note
@@ -44,9 +42,8 @@ std::optional<std::vector<std::byte>> kept_part_file(const std::string& path,
 /// "has inputs that failed". The text is empty if it is the requested part.
 template <class OfBytes, class WhyNot>
 std::optional<std::invoke_result_t<OfBytes, std::span<const std::byte>>> kept_part(
-    const std::string& path, std::span<const std::string> inputs, app::Session& session,
-    OfBytes&& of_bytes, WhyNot&& why_not) {
-  const auto bytes = kept_part_file(path, inputs, session);
+    const std::string& path, app::Session& session, OfBytes&& of_bytes, WhyNot&& why_not) {
+  const auto bytes = kept_part_file(path, session);
   if (!bytes) return std::nullopt;
   std::string why;
   try {

@@ -22,7 +22,7 @@ RankResult cloud_of_ranks(const Job& job, Transport& transport, app::Session& se
   Post post(transport);
   std::optional<CloudPart> own = kept_or_computed(
       result.kept, job, session,
-      [&] { return kept_cloud_part(result.kept, job.places.input, cloud, rank, parts, session); },
+      [&] { return kept_cloud_part(result.kept, cloud, rank, parts, session); },
       [&] { return CloudPart(cloud.points, rank, parts, cloud.options, context); },
       [](const CloudPart&) { return true; });
   std::optional<CloudPart> whole = join_ranks(std::move(own), post, context);

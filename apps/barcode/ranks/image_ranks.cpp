@@ -73,7 +73,7 @@ RankResult image_of_ranks(const Job& job, Transport& transport, app::Session& se
     result.kept = kept_path(job, rank, parts);
     own.emplace(kept_or_computed(
         result.kept, job, session,
-        [&] { return kept_image_part(result.kept, job.places.input, input, rank, parts, session); },
+        [&] { return kept_image_part(result.kept, input, rank, parts, session); },
         [&] { return ImagePart(input.image, rank, parts, input.options, context); },
         [&](const ImagePart& part) {
           // The search for loops needs voxels, which are not in part files.

@@ -9,6 +9,7 @@ import random
 import re
 import sys
 import time
+import zipfile
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../support"))
 from program import SQUARE, ProgramTest, files, main  # noqa: E402
@@ -149,7 +150,7 @@ class Parts(PartsTest):
 
     def test_resume_takes_what_is_there(self):
         rng = random.Random(6)
-        image = self.image(rng, "image.npy", (6, 5))
+        image = self.write("image.npy", files.array((6, 5), [rng.randrange(200) for _ in range(30)], "|u1"))
         old = time.time() - 1000
         os.utime(self.path(image), (old, old))
         part = self.path("p.ph")
@@ -174,8 +175,25 @@ class Parts(PartsTest):
         self.assertIn("checksum", said)
         with open(part, "rb") as file:
             self.assertEqual(file.read(), whole)
+        # The content of the image decides, not its age.
         os.utime(part, (old - 10, old - 10))
-        self.assertIn("is older than image.npy", resume()[1])
+        self.assertFalse(resume()[0])
+        kept = self.read_bytes("image.npy")
+        for voxel, is_read in ((0, True), (3 * 5, True), (5 * 5, False)):
+            other = bytearray(kept)
+            other[len(other) - 30 + voxel] ^= 1
+            self.write("image.npy", bytes(other))
+            os.utime(self.path("image.npy"), (old - 20, old - 20))
+            is_new, said = resume()
+            self.assertEqual(is_new, is_read, voxel)
+            self.assertIn("is not the requested part" if is_read else "already exists", said)
+            self.assertEqual(self.read_bytes("p.ph"), self.part_anew(image))
+            self.write("image.npy", kept)
+            resume()
+
+    def part_anew(self, image):
+        self.expect(0, image, "--part", "1/2", "-o", "anew.ph", "--quiet")
+        return self.read_bytes("anew.ph")
 
     def test_options_have_a_place(self):
         rng = random.Random(7)
@@ -332,9 +350,42 @@ class Batches(PartsTest):
         run = self.expect(0, "in", "--part", "1/1", "-o", name, "--resume")
         self.assertIn("already exists", run.stderr)
         self.assertEqual(os.stat(self.path(name)).st_ino, before)
+        # The content of the inputs decides, not their age.
+        kept, old = self.read("in/3.csv"), time.time() - 1000
+        os.utime(self.path(name), (old, old))
+        self.assertIn("already exists", self.expect(0, "in", "--part", "1/1", "-o", name, "--resume").stderr)
+        self.write("in/3.csv", kept.replace("1", "2", 1))
+        os.utime(self.path("in/3.csv"), (old - 10, old - 10))
+        said = self.expect(0, "in", "--part", "1/1", "-o", name, "--resume").stderr
+        self.assertIn("has bars of other data than in/3.csv has now; it is computed again", said)
         self.write("in/new.csv", SQUARE.replace(" ", ","))
-        self.expect(0, "in", "--part", "1/1", "-o", name, "--resume")
+        said = self.expect(0, "in", "--part", "1/1", "-o", name, "--resume").stderr
+        self.assertIn("is not the requested part", said)
         self.assertNotEqual(os.stat(self.path(name)).st_ino, before)
+
+    def test_resume_compares_the_files_of_options(self):
+        self.write("mesh.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")
+        self.write("square.off", "OFF\n3 1 0\n0 0 0\n2 0 0\n0 2 0\n3 0 1 2\n")
+        self.write("values.txt", "0\n1\n2\n")
+        again = ("mesh.off", "square.off", "--values", "values.txt", "--part", "1/1", "-o", "m.ph",
+                 "--resume")
+        self.expect(0, *again)
+        self.assertIn("already exists", self.expect(0, *again).stderr)
+        self.write("values.txt", "0\n1\n3\n")
+        os.utime(self.path("values.txt"), (1, 1))
+        self.assertIn("has bars of other data than mesh.off has now", self.expect(0, *again).stderr)
+
+    def test_resume_finds_the_file_of_a_member(self):
+        for name in ("a.npz", "b.npz"):
+            with zipfile.ZipFile(self.path(name), "w") as archive:
+                archive.writestr("p.npy", files.array((4, 2), [0, 0, 1, 0, 1, 1, 0, 1], "<f8"))
+                archive.writestr("q.npy", files.array((2, 2), [0, 0, 3, 0], "<f8"))
+        again = ("a.npz:p", "b.npz:p", "--part", "1/1", "-o", "m.ph", "--resume")
+        self.expect(0, *again)
+        self.assertIn("already exists", self.expect(0, *again).stderr)
+        with zipfile.ZipFile(self.path("b.npz"), "w") as archive:
+            archive.writestr("p.npy", files.array((4, 2), [0, 0, 2, 0, 2, 2, 0, 2], "<f8"))
+        self.assertIn("has bars of other data than b.npz:p has now", self.expect(0, *again).stderr)
 
 
 if __name__ == "__main__":

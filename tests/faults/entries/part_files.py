@@ -31,7 +31,7 @@ def inputs(names=(b"a.txt", b"b.txt"), part=0, parts=1, code=0, failure=b"", bar
     return sealed("inputs", listed(map(text, names)) + listed(map(text, options))
                   + struct.pack("<i", parts)
                   + listed([(part,)] if numbers is None else [(n,) for n in numbers], "i")
-                  + listed(struct.pack("<Qi", i, code) + text(failure) + listed(bars, "idd")
+                  + listed(struct.pack("<QQi", i, 1, code) + text(failure) + listed(bars, "idd")
                            for i in own))
 
 
@@ -54,6 +54,7 @@ def image(extents=(2, 2), periodic=(0, 0), type_=0, construction=1, sign=0, limi
     content += (b"\1" + roots() if forest is None else forest) + tops
     content += struct.pack("<QQQ", 0, 0, 0)
     content += listed(struct.pack("<idd", *bar) + numbers for bar in bars)
+    content += struct.pack("<Q", 7)  # the fingerprint
     return sealed("image", content + more)
 
 

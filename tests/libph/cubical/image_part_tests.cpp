@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string_view>
+#include <tuple>
 
 #include "libph/src/core/bytes/crc32.hpp"
 #include "ph/detail/core/byte_writer.hpp"
@@ -109,6 +110,18 @@ TEST(ImagePart, RefusesLayersThatAreNone) {
   EXPECT_TRUE(with_loops.is_of(image, 1, 3, {.loops = true}));
   EXPECT_FALSE(with_loops.is_of(image, 1, 3, {}));
   EXPECT_FALSE(with_loops.is_of(image, 1, 3, {.max_dim = 0, .loops = true}));
+  // The voxels of the part, and those of the layers next to it, decide. Others do not matter.
+  const ImagePart begin(image, 0, 3, {.loops = true});
+  using Case = std::tuple<std::size_t, bool, bool>;
+  for (const auto& [layer, is_of_begin, is_of_middle] :
+       {Case{0, false, true}, Case{1, false, false}, Case{2, false, false}, Case{3, true, false},
+        Case{5, true, true}}) {
+    Image other = image;
+    const std::size_t voxel = layer * 12;
+    other.values.change([&](auto& numbers) { numbers[voxel] += 1; });
+    EXPECT_EQ(begin.is_of(other, 0, 3, {.loops = true}), is_of_begin) << layer;
+    EXPECT_EQ(with_loops.is_of(other, 1, 3, {.loops = true}), is_of_middle) << layer;
+  }
   // Parts with different first layers have different options, so they do not fit together.
   const ImagePartOptions equal{.max_dim = 0}, other{.max_dim = 0, .first_layers = {0, 1, 6}};
   ImagePart first(image, 0, 3, other);

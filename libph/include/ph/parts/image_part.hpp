@@ -87,8 +87,9 @@ class ImagePart {
   const std::vector<Index>& extents() const;
   VoxelType type() const;
   const ImagePartOptions& options() const;
-  /// True if this is exactly part `part` of `parts` of an image with the shape and type of `image`,
-  /// and with these options, as the constructor would make it. The voxels are not compared.
+  /// True if this is exactly part `part` of `parts` of the image, with these options, as the
+  /// constructor would make it. The voxels that the constructor reads are compared by a fingerprint
+  /// of 64 bits. O(these voxels).
   bool is_of(const Image& image, int part, int parts, const ImagePartOptions& options) const;
   /// Takes in the part that follows directly.
   /// @throws Error (bad_data) if it does not follow, belongs to another image or has other options;

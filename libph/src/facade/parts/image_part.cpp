@@ -5,12 +5,16 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <limits>
+#include <span>
 #include <utility>
 
 #include "libph/src/cubical/rounds/part_layout.hpp"
 #include "libph/src/cubical/slabs/slabs.hpp"
 #include "libph/src/facade/parts/part_state.hpp"
+#include "ph/detail/core/file_pages.hpp"
+#include "ph/detail/core/fingerprint.hpp"
 #include "ph/detail/facade/bar_bytes.hpp"
 #include "ph/error.hpp"
 
@@ -100,6 +104,21 @@ Image image_of(const Image& image, const PartLayout::Layers& layers, const GridS
   return part;
 }
 
+/// A hash of the voxels. Pages of a file leave memory once they are read.
+std::uint64_t fingerprint_of(const Voxels& voxels) {
+  constexpr std::size_t block = std::size_t{1} << 24;
+  Fingerprint fingerprint;
+  std::span<const std::byte> left(static_cast<const std::byte*>(voxels.data()),
+                                  voxels.size() * bytes_of(voxels.type()));
+  while (!left.empty()) {
+    const auto bytes = left.first(std::min(block, left.size()));
+    fingerprint.add(bytes);
+    if (voxels.is_in_file()) forget_file_pages(bytes.data(), bytes.size());
+    left = left.subspan(bytes.size());
+  }
+  return fingerprint.value();
+}
+
 }  // namespace
 
 WholeImage cubical::checked_whole(const Image& image, int parts, const ImagePartOptions& options) {
@@ -159,8 +178,11 @@ ImagePart::ImagePart(const Image& image, int part, int parts, const ImagePartOpt
   CubicalOptions own_options = options.cubical;
   own_options.periodic = state_->whole.periodic;
   own_options.periodic[static_cast<std::size_t>(axis.of_input)] = false;
-  const Cubical cubical(image_of(image, layout.turned(layout.own(part)), axis), own_options,
-                        context);
+  const Cubical cubical = [&] {
+    const Image own = image_of(image, layout.turned(layout.own(part)), axis);
+    state_->fingerprint = fingerprint_of(own.values);
+    return Cubical(own, own_options, context);
+  }();
   const CubicalImage voxels = cubical.cubical_image();
   if (!cubical::LayeredImage::can_cut(voxels))
     throw Error(ErrorKind::resource,
@@ -217,7 +239,12 @@ bool ImagePart::is_of(const Image& image, int part, int parts,
                       const ImagePartOptions& options) const {
   WholeImage whole = whole_image(image, parts, options);
   whole.loops = options.loops && cubical::wants_loops(state_->shape, whole.wanted());
-  return first() == part && last() == part && state_->whole == whole;
+  if (first() != part || last() != part || state_->whole != whole) return false;
+  const GridShape& shape = state_->shape;
+  const PartLayout layout = whole.layout(shape);
+  const Image own =
+      image_of(image, layout.turned(layout.own(part)), shape.axis(shape.layer_axis()));
+  return fingerprint_of(own.values) == state_->fingerprint;  // mutant: part-voxels
 }
 
 void ImagePart::join(ImagePart next, const RunContext& context) {
@@ -244,6 +271,7 @@ void ImagePart::join(ImagePart next, const RunContext& context) {
   add_bars(state_->bars, next.state_->bars);
   state_->claim.grow_to(state_->bars.bytes());
   state_->last = next.last();
+  state_->fingerprint = 0;
 }
 
 Barcode ImagePart::barcode(const RunContext& context) const {

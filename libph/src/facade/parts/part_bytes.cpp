@@ -208,6 +208,7 @@ std::vector<std::byte> ImagePart::bytes() const {
   Barcode bars = state_->bars;
   bars.sort(state_->context);
   put_bars(to, bars);
+  to.put(state_->fingerprint);
   return sealed_part(kImageKind, to.take());
 }
 
@@ -237,6 +238,7 @@ ImagePart ImagePart::of_bytes(std::span<const std::byte> bytes, const RunContext
   get_cells(from, top, 2, state->freed.squares);
   get_bars(from, state->bars);
   state->claim.grow_to(state->bars.bytes());
+  state->fingerprint = from.get<std::uint64_t>("fingerprint");
   from.expect_end();
   return ImagePart(std::move(state));
 }

@@ -131,6 +131,8 @@ struct ImagePart::State {
   const RunContext& context;
   cubical::GridShape shape;
   int first = 0, last = 0;
+  /// Of the voxels from which the part was computed; 0 if parts were joined.
+  std::uint64_t fingerprint = 0;
   cubical::LayerPairs pairs;
   cubical::FreeCells freed;  // free cells found by joins; `own` has the free cells of a part
   // Set only in a part that was not joined with other parts, until ImageLoops takes these data.

@@ -31,9 +31,9 @@ class Rows {
   std::vector<double> row_;
 };
 
-std::uint64_t mixed(std::uint64_t hash, double x) {
-  hash = (hash ^ std::bit_cast<std::uint64_t>(x + 0.0)) * 0x9E3779B97F4A7C15U;
-  return hash ^ hash >> 32;
+/// Adds a coordinate. The two zeros count as equal, because all distances from them are.
+void add(Fingerprint& fingerprint, double x) {
+  fingerprint.add(std::bit_cast<std::uint64_t>(x + 0.0));
 }
 
 std::uint32_t cell_count(const SampleTree& tree, SampleTree::Range blocks) {
@@ -66,13 +66,13 @@ CloudBlocks::CloudBlocks(PointsView points, std::size_t sample, std::uint32_t bl
 }
 
 std::uint64_t CloudBlocks::fingerprint_of(PointsView points) {
-  std::uint64_t fingerprint = 0;
+  Fingerprint fingerprint;
   Rows rows(points);
   for (Index i = 0; i < points.rows(); ++i) {
     const double* const x = rows(i);
-    for (Index k = 0; k < points.cols(); ++k) fingerprint = mixed(fingerprint, x[k]);
+    for (Index k = 0; k < points.cols(); ++k) add(fingerprint, x[k]);
   }
-  return fingerprint;
+  return fingerprint.value();
 }
 
 // Collects the properties of the entire cloud that affect distances, and data about the points in
@@ -93,7 +93,7 @@ void CloudBlocks::scan(SampleTree::Range mine, const RunContext& context) {
       if (!std::isfinite(x[k])) throw not_finite(i, static_cast<Index>(k), x[k]);
       box_[2 * k] = std::min(box_[2 * k], x[k]);
       box_[2 * k + 1] = std::max(box_[2 * k + 1], x[k]);
-      fingerprint_ = mixed(fingerprint_, x[k]);
+      add(fingerprint_, x[k]);
     }
     SampleTree::Node node = SampleTree::kRoot;
     const auto is_mine = [&] {

@@ -8,6 +8,7 @@
 #include "libph/src/metric/blocks/near_points.hpp"
 #include "libph/src/metric/blocks/numbered_forest.hpp"
 #include "libph/src/metric/blocks/sample_tree.hpp"
+#include "ph/detail/core/fingerprint.hpp"
 #include "ph/points.hpp"
 #include "ph/run_context.hpp"
 
@@ -26,7 +27,7 @@ class CloudBlocks {
               const RunContext& context);
 
   /// A fingerprint of all coordinates of the cloud.
-  std::uint64_t fingerprint() const { return fingerprint_; }
+  std::uint64_t fingerprint() const { return fingerprint_.value(); }
   /// The fingerprint of a cloud, computed without making blocks, in O(coordinates).
   static std::uint64_t fingerprint_of(PointsView points);
   /// The number of points in the blocks of this object.
@@ -55,7 +56,7 @@ class CloudBlocks {
   std::uint32_t first_block_;
   double largest_ = 0;
   std::vector<double> box_;
-  std::uint64_t fingerprint_ = 0;
+  Fingerprint fingerprint_;
   Index size_ = 0;
   std::optional<Bottlenecks> bottlenecks_;
   std::optional<CellRegions> regions_;
