@@ -29,6 +29,7 @@
 #include "ph/detail/core/sealed_part.hpp"
 #include "ph/detail/cubical/pair_voxels.hpp"
 #include "ph/detail/facade/adjust.hpp"
+#include "ph/detail/io/table.hpp"
 #include "ph/detail/report/shown_tree.hpp"
 #include "ph/estimate.hpp"
 #include "ph/io/save.hpp"
@@ -153,8 +154,12 @@ class Run {
   Input open() {
     if (app::is_typed({job_.places.input, job_.reading.values, job_.question.vertex_weights}))
       typing_.emplace(session_);
-    Input input =
-        Input::open(files::path_of(job_.places.input), &context(), Input::Excess::stays_in_file);
+    const auto check = [&](const Input& start) {
+      if (is_sealed_part(start.bytes())) return;  // the message below says more
+      (job_.stored ? barcode_start_check() : detail::start_check(job_.reading.format))(start);
+    };
+    Input input = Input::open(files::path_of(job_.places.input), &context(),
+                              Input::Excess::stays_in_file, check);
     if (is_sealed_part(input.bytes()))
       throw Error(ErrorKind::bad_data, fmt::format("{}: found a part of a result, expected data; "
                                                    "--join makes bars from all parts",

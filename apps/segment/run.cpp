@@ -119,7 +119,13 @@ Result result_of(const Arguments& arguments, const std::optional<Plane>& plane_g
     somebody_types.emplace(session);
   const DepthInput& image = arguments.image;
   std::optional<Input> input(
-      Input::open(files::path_of(image.depth.empty() ? arguments.input : image.depth), &context));
+      Input::open(files::path_of(image.depth.empty() ? arguments.input : image.depth), &context,
+                  Input::Excess::refused, [&](const Input& first) {
+                    if (arguments.is_depth_image())
+                      depth_start_check()(first);
+                    else if (!is_tree(first))
+                      cloud_start_check()(first);
+                  }));
   const bool is_scene = arguments.is_depth_image() || !is_tree(*input);
   if (is_scene) require_input(arguments.given, arguments.is_depth_image() ? kDepthImage : kCloud);
   if (is_scene) require_method(arguments.given, arguments.options.method);

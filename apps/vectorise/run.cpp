@@ -17,6 +17,7 @@
 #include "apps/vectorise/make_fit.hpp"
 #include "ph/detail/core/parallel.hpp"
 #include "ph/detail/diagram/thread_context.hpp"
+#include "ph/detail/io/table.hpp"
 
 namespace ph::vectorise {
 namespace {
@@ -29,7 +30,8 @@ class Run {
     if (arguments.fitted.empty()) {
       fit_ = fit_of(arguments);
     } else {
-      fit_ = read_fit(Input::open(arguments.fitted, &context_));
+      fit_ = read_fit(Input::open(arguments.fitted, &context_, Input::Excess::refused,
+                                  detail::start_check(Format::points)));
       if (fit_.kind != Kind::euler) require_kind(arguments, fit_.kind);
     }
     files_ = files_of(arguments, fit_.kind);

@@ -182,7 +182,9 @@ py::tuple read_bars(const std::string& path, const std::optional<std::string>& f
     throw Error(ErrorKind::usage, "format: found '" + *format_name +
                                       "', expected csv, json, ripser, pers, dipha or npy");
   StoredBarcode stored = run(options, false, [&](const RunContext& context) {
-    return read_stored_barcode(Input::open(std::filesystem::path(path), &context), format);
+    return read_stored_barcode(Input::open(std::filesystem::path(path), &context,
+                                           Input::Excess::refused, barcode_start_check(format)),
+                               format);
   });
   const py::dict meta = meta_of(stored.info);
   return py::make_tuple(Bars{std::move(stored.bars),

@@ -17,6 +17,7 @@
 #include "apps/common/values/numbers.hpp"
 #include "ph/detail/complex/listed_cubes.hpp"
 #include "ph/detail/core/files.hpp"
+#include "ph/detail/io/table.hpp"
 #include "ph/detail/report/shown_tree.hpp"
 #include "ph/error.hpp"
 #include "ph/explicit.hpp"
@@ -217,7 +218,8 @@ class Builder {
                                       double least = std::numeric_limits<double>::lowest(),
                                       const char* expected = "a finite number") const {
     if (path.empty()) return {};
-    const Input input = Input::open(files::path_of(path), &context_);
+    const Input input = Input::open(files::path_of(path), &context_, Input::Excess::refused,
+                                    detail::start_check(Format::automatic));
     std::vector<double> all = read_values(input, static_cast<std::size_t>(points) + dropped_,
                                           job_.reading.options, "point");
     for (std::size_t v = 0; v < all.size(); ++v)

@@ -155,7 +155,8 @@ int run_comparison(const Job& job, app::Session& session) try {
   std::vector<Barcode> barcodes;
   app::SameOrigin origin(session);
   for (const std::string& path : job.compare) {
-    const Input input = Input::open(files::path_of(path), &session.context());
+    const Input input = Input::open(files::path_of(path), &session.context(),
+                                    Input::Excess::refused, barcode_start_check());
     StoredBarcode stored = read_stored_barcode(input);
     origin.add(path, stored.info);
     barcodes.push_back(std::move(stored.bars));

@@ -8,6 +8,7 @@
 
 #include "apps/barcode/parts/part_files.hpp"
 #include "ph/detail/core/files.hpp"
+#include "ph/detail/io/table.hpp"
 #include "ph/detail/metric/metric.hpp"
 
 namespace ph::barcode {
@@ -24,7 +25,9 @@ CloudInput read_cloud_input(const std::string& input, const Job& job, app::Sessi
     throw Error(ErrorKind::usage, fmt::format("--metric: found {}, expected euclidean with {}",
                                               name_of(job.question.rips.distance), why));
   NamedData data =
-      read_input(Input::open(files::path_of(input), &session.context()), job, session.context());
+      read_input(Input::open(files::path_of(input), &session.context(), Input::Excess::refused,
+                             detail::start_check(job.reading.format)),
+                 job, session.context());
   const std::string& description = data.read.description;
   const std::optional<PointsView> points = points_of(data.read);
   if (!points)

@@ -10,6 +10,7 @@
 #include "apps/barcode/job/own_complex.hpp"
 #include "apps/common/values/numbers.hpp"
 #include "ph/detail/core/files.hpp"
+#include "ph/detail/io/table.hpp"
 
 namespace ph::barcode {
 
@@ -26,7 +27,8 @@ PartInput read_part_input(const std::string& input, bool keeps_cells, const Job&
                         : complex_names()[static_cast<std::size_t>(job.question.complex)],
                     why));
   const Input opened =
-      Input::open(files::path_of(input), &session.context(), Input::Excess::is_expected);
+      Input::open(files::path_of(input), &session.context(), Input::Excess::is_expected,
+                  detail::start_check(job.reading.format));
   if (job.reading.format == Format::automatic && is_barcode(opened))
     throw Error(ErrorKind::usage,
                 fmt::format("{}: {} is a barcode, expected an image", why, opened.name()));

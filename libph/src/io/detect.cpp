@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <array>
 #include <cstdint>
+#include <string>
 
 #include "libph/src/io/bytes/readers.hpp"
 #include "ph/detail/io/table.hpp"
@@ -9,18 +11,33 @@
 namespace ph {
 namespace {
 
+struct Magic {
+  Format format;
+  bool (*is_at_start)(const Input&);
+};
+constexpr std::array kMagics{
+    Magic{Format::npy, &detail::is_npy},     Magic{Format::png, &detail::is_png},
+    Magic{Format::pcd, &detail::is_pcd},     Magic{Format::ply, &detail::is_ply},
+    Magic{Format::off, &detail::is_off},     Magic{Format::npz, &detail::is_npz},
+    Magic{Format::dipha, &detail::is_dipha}, Magic{Format::pgm, &detail::is_pgm},
+    Magic{Format::nifti, &detail::is_nifti}};
+
 // Finds the format by its magic number.
 std::optional<Format> by_magic(const Input& input) {
-  if (detail::is_npy(input)) return Format::npy;
-  if (detail::is_png(input)) return Format::png;
-  if (detail::is_pcd(input)) return Format::pcd;
-  if (detail::is_ply(input)) return Format::ply;
-  if (detail::is_off(input)) return Format::off;
-  if (detail::is_npz(input)) return Format::npz;
-  if (detail::is_dipha(input)) return Format::dipha;
-  if (detail::is_pgm(input)) return Format::pgm;
-  if (detail::is_nifti(input)) return Format::nifti;
-  return std::nullopt;
+  const auto* const found =
+      std::ranges::find_if(kMagics, [&](const Magic& magic) { return magic.is_at_start(input); });
+  return found == kMagics.end() ? std::nullopt : std::optional(found->format);
+}
+
+// True if the magic number is there. Blanks and comments may precede the first word of a text: a
+// start of blanks and comments only leaves the question open.
+bool may_have(const Magic& magic, const Input& start) {
+  if (magic.is_at_start(start)) return true;
+  if (magic.format != Format::ply && magic.format != Format::off) return false;
+  TextLines lines(start, 0, 0);
+  if (!lines.next()) return true;
+  const std::string first = std::string(lines.line().substr(0, lines.line().find(' '))) + '\n';
+  return magic.is_at_start(Input::view(first, {}));
 }
 
 std::optional<Format> by_extension(const Input& input) {
@@ -63,6 +80,19 @@ std::optional<Format> format_by_content(const Input& input) {
   // Bytes without a magic number may be in Ripser's binary format. For any other bytes, the reader
   // of text reports the problem.
   return input.extension() == ".bin" ? Format::binary : Format::points;
+}
+
+Input::StartCheck start_check(Format format) {
+  return [format](const Input& start) {
+    const Format likely =
+        format == Format::automatic ? format_by_content(start).value_or(Format::points) : format;
+    if (likely == Format::binary || likely == Format::raw || likely == Format::phat) return;
+    const auto* const magic = std::ranges::find(kMagics, likely, &Magic::format);
+    if (magic == kMagics.end())
+      TextLines{start};  // refuses bytes that are not text
+    else if (!may_have(*magic, start))
+      format_info(likely).read(start, {});  // says what is there instead of the magic number
+  };
 }
 
 }  // namespace detail

@@ -161,7 +161,9 @@ void add_values(ReadResult& result, const std::filesystem::path& values_path,
                 const ReadOptions& options) {
   if (values_path.empty()) return;
   const auto values_for = [&](std::size_t count, std::string_view owner) {
-    return read_values(Input::open(values_path, options.context), count, options, owner);
+    return read_values(Input::open(values_path, options.context, Input::Excess::refused,
+                                   detail::start_check(Format::automatic)),
+                       count, options, owner);
   };
   if (auto* boundary = std::get_if<BoundaryInput>(&result.data)) {
     boundary->matrix.values = values_for(boundary->matrix.size(), "cell");
@@ -258,8 +260,9 @@ ReadResult read_any(const Input& input, Format format, const ReadOptions& option
 
 ReadResult read_any(const std::filesystem::path& path, Format format, const ReadOptions& options,
                     const std::filesystem::path& values_path) {
-  return read_any(Input::open(path, options.context, Input::Excess::stays_in_file), format, options,
-                  values_path);
+  return read_any(
+      Input::open(path, options.context, Input::Excess::stays_in_file, detail::start_check(format)),
+      format, options, values_path);
 }
 
 }  // namespace ph

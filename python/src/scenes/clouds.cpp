@@ -120,7 +120,8 @@ std::shared_ptr<SceneCloud> read_depth(const std::string& path, const std::strin
   scene->notes = camera->notes;
   scene->camera = std::move(camera);
   run_task(options, false, [&](const SharedContext& context) {
-    const Input input = Input::open(std::filesystem::path(path), context.get());
+    const Input input = Input::open(std::filesystem::path(path), context.get(),
+                                    Input::Excess::refused, depth_start_check());
     const DepthImage depth = ph::read_depth(input, {.context = context.get()});
     std::optional<Raster> colour;
     if (!colour_path.empty()) colour = read_png(std::filesystem::path(colour_path), context.get());

@@ -61,7 +61,10 @@ py::object read_scene(const std::string& path, const RunOptions& options) {
   std::shared_ptr<SceneCloud> cloud;
   std::optional<SegmentedScene> stored;
   run_task(options, false, [&](const SharedContext& context) {
-    const Input input = Input::open(std::filesystem::path(path), context.get());
+    const Input input = Input::open(std::filesystem::path(path), context.get(),
+                                    Input::Excess::refused, [](const Input& start) {
+                                      if (!segment::is_tree(start)) cloud_start_check()(start);
+                                    });
     if (!segment::is_tree(input)) {
       cloud = std::make_shared<SceneCloud>();
       ReadOptions how;

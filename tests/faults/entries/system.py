@@ -198,13 +198,23 @@ def inputs():
         yield refused(53, f"{program}: /dev/zero as standard input", "-", code=65,
                       message="only NUL bytes in the first MiB", named="<stdin>", program=program,
                       around=from_device("/dev/zero"))
-        yield refused(53, f"{program}: /dev/urandom", "/dev/urandom", "--memory-limit", "32MiB",
-                      code=75, message="larger than the memory limit", named="/dev/urandom",
-                      program=program, around=with_device("/dev/urandom"))
+        yield refused(53, f"{program}: /dev/urandom", "/dev/urandom", code=65,
+                      message="not plain text", named="/dev/urandom", program=program,
+                      around=with_device("/dev/urandom"))
         yield refused(52, f"{program}: faulty standard input", "-", code=65, message=":2:3: not a num",
                       named="<stdin>", program=program, around=with_stdin(b"0 0 1\n1 x 1\n"))
         yield refused(52, f"{program}: /dev/null", "/dev/null", code=65, message="no points",
                       named="/dev/null", program=program, around=with_device("/dev/null"))
+    for name, words in (("npy", "not an NPY file"), ("png", "not a PNG file"),
+                        ("dipha", "not a DIPHA file"), ("pgm", "not a PGM file"),
+                        ("npz", "not an NPZ archive"), ("nifti", "not a NIfTI-1 file"),
+                        ("pcd", "not a PCD file"), ("points", "not plain text"),
+                        ("sparse", "not plain text"), ("simplices", "not plain text")):
+        yield refused(53, f"/dev/urandom as {name}", "/dev/urandom", "--format", name, code=65,
+                      message=words, named="/dev/urandom", around=with_device("/dev/urandom"))
+    yield refused(53, "an endless stream that may be anything", "/dev/urandom", "--format", "binary",
+                  "--memory-limit", "32MiB", code=75, message="larger than the memory limit",
+                  named="/dev/urandom", around=with_device("/dev/urandom"))
     yield refused(51, "--values is a directory", "edge.phat", "--values", ".", code=66,
                   message="it is a directory", named=".", files={"edge.phat": b"0\n0\n1 0 1\n"})
     yield refused(54, "--values is missing", "edge.phat", "--values", "no.txt", code=66,

@@ -24,6 +24,9 @@ namespace ph {
 Cloud read_cloud(const std::filesystem::path& path, const ReadOptions& options = {});
 Cloud read_cloud(const Input& input, const ReadOptions& options = {});
 
+/// For Input::open: refuses a stream that read_cloud cannot read.
+Input::StartCheck cloud_start_check();
+
 /// PCD 0.7 (and 0.5, 0.6): ascii, binary, binary_compressed; organised or not; all fields.
 Cloud read_pcd(const Input& input, const ReadOptions& options = {});
 
@@ -58,6 +61,8 @@ struct DepthImage {
 /// A PNG of one channel, PGM, or a NumPy array (.npy) with two axes. NaN is an absent pixel: a hole
 /// for cloud_from_depth. @throws Error (bad_data) also on more channels or other axes.
 DepthImage read_depth(const Input& input, const ReadOptions& options = {});
+/// For Input::open: refuses a stream that read_depth cannot read.
+Input::StartCheck depth_start_check();
 
 /// The numbers of pixels of a depth image that have a depth but become holes, by reason.
 struct DepthCounts {

@@ -144,6 +144,9 @@ Barcode read_barcode(const std::filesystem::path& path,
                      const RunContext* context = nullptr);
 Barcode read_barcode(const Input& input, std::optional<BarcodeFormat> format = std::nullopt);
 
+/// For Input::open: refuses a stream that is no barcode of this format.
+Input::StartCheck barcode_start_check(std::optional<BarcodeFormat> format = std::nullopt);
+
 /// A barcode with everything that its file says about it.
 struct StoredBarcode {
   Barcode bars;

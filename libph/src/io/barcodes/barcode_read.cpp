@@ -162,6 +162,21 @@ Fault fault_of_bar(const Bar& bar) {
   return {};
 }
 
+Input::StartCheck barcode_start_check(std::optional<BarcodeFormat> format) {
+  return [format](const Input& start) {
+    switch (format.value_or(format_of(start))) {
+      case BarcodeFormat::dipha:
+        detail::dipha_type(start);
+        break;
+      case BarcodeFormat::npy:
+        if (!detail::is_npy(start) && !detail::is_npz(start)) read_npy(start);
+        break;
+      default:
+        TextLines{start};  // refuses bytes that are not text
+    }
+  };
+}
+
 StoredBarcode read_stored_barcode(const Input& input, std::optional<BarcodeFormat> format) {
   const auto read = [&]() -> StoredBarcode {
     switch (format.value_or(format_of(input))) {
@@ -193,7 +208,8 @@ Barcode read_barcode(const Input& input, std::optional<BarcodeFormat> format) {
 
 Barcode read_barcode(const std::filesystem::path& path, std::optional<BarcodeFormat> format,
                      const RunContext* context) {
-  return read_barcode(Input::open(path, context), format);
+  return read_barcode(
+      Input::open(path, context, Input::Excess::refused, barcode_start_check(format)), format);
 }
 
 }  // namespace ph

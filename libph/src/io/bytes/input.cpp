@@ -23,6 +23,8 @@ namespace {
 // safe if the file shrinks.
 constexpr std::size_t kMapFrom = std::size_t{16} << 20;
 constexpr std::size_t kFirstChunk = std::size_t{64} << 10;
+// The bytes of a stream that are checked before the rest is read.
+constexpr std::size_t kStart = 4096;
 // A stream that begins with this many NUL bytes contains no data.
 constexpr std::size_t kNulProbe = std::size_t{1} << 20;
 
@@ -183,8 +185,8 @@ Input Input::hold(ScratchFile bytes, const std::string& name, const RunContext* 
   return input;
 }
 
-Input Input::open(const std::filesystem::path& whole_path, const RunContext* context,
-                  Excess excess) {
+Input Input::open(const std::filesystem::path& whole_path, const RunContext* context, Excess excess,
+                  const StartCheck& check) {
   Input input;
   std::filesystem::path path;
   std::tie(path, input.member_) = split_member(whole_path);
@@ -232,7 +234,7 @@ Input Input::open(const std::filesystem::path& whole_path, const RunContext* con
       : context != nullptr && context->memory.limit() != MemoryBudget::kUnlimited
           ? context->memory.limit()
           : half_of_memory();
-  bool probed = sized;
+  bool probed = sized, checked = sized || !check;
   while (!storage->mapped) {
     input.poll();
     if (storage->used == storage->capacity) {
@@ -261,6 +263,16 @@ Input Input::open(const std::filesystem::path& whole_path, const RunContext* con
                               mark_place(input.name_), storage->used, file_size));
     }
     storage->used += static_cast<std::size_t>(got);
+    if (!checked && storage->used >= kStart) {
+      checked = true;
+      Input start = view({storage->data, storage->used}, {}, context);
+      start.name_ = input.name_;
+      start.extension_ = input.extension_;
+      start.member_ = input.member_;
+      // NUL bytes alone get a message of their own below.
+      const bool has_data = start.text().find_first_not_of('\0') != std::string_view::npos;
+      if (has_data && !detail::is_gzip(start.text())) check(start);
+    }
     if (!probed && storage->used >= kNulProbe) {
       probed = true;
       if (std::all_of(storage->data, storage->data + kNulProbe, [](char c) { return c == 0; })) {

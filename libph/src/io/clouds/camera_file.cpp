@@ -224,7 +224,8 @@ Camera read_camera(const Input& input) {
 }
 
 Camera read_camera(const std::filesystem::path& path, const RunContext* context) {
-  return read_camera(Input::open(path, context));
+  return read_camera(
+      Input::open(path, context, Input::Excess::refused, detail::start_check(Format::points)));
 }
 
 }  // namespace ph

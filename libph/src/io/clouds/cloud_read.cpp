@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "libph/src/io/bytes/readers.hpp"
+#include "ph/detail/io/table.hpp"
 #include "ph/io/cloud.hpp"
 
 namespace ph {
@@ -27,8 +28,21 @@ Cloud read_cloud(const Input& input, const ReadOptions& options) {
   return cloud;
 }
 
+Input::StartCheck cloud_start_check() {
+  return [](const Input& start) {
+    const bool is_mesh = detail::is_ply(start) || start.extension() == ".ply";
+    const bool is_pcd = detail::is_pcd(start) || start.extension() == ".pcd";
+    const bool is_array = detail::is_npy(start);
+    detail::start_check(is_pcd     ? Format::pcd
+                        : is_mesh  ? Format::ply
+                        : is_array ? Format::npy
+                                   : Format::xyz)(start);
+  };
+}
+
 Cloud read_cloud(const std::filesystem::path& path, const ReadOptions& options) {
-  return read_cloud(Input::open(path, options.context), options);
+  return read_cloud(Input::open(path, options.context, Input::Excess::refused, cloud_start_check()),
+                    options);
 }
 
 }  // namespace ph

@@ -10,13 +10,25 @@
 #include "ph/io/cloud.hpp"
 
 namespace ph {
+namespace {
+
+bool has_known_start(const Input& input) {
+  return detail::is_npy(input) || detail::is_png(input) || detail::is_pgm(input);
+}
+
+}  // namespace
+
+Input::StartCheck depth_start_check() {
+  return [](const Input& start) {
+    if (!has_known_start(start)) read_depth(start);  // says what is there
+  };
+}
 
 DepthImage read_depth(const Input& input, const ReadOptions& options) {
   ReadOptions holes = options;
   holes.nan = NanPolicy::drop;
   holes.note = {};  // holes of a depth image need no note
-  const bool is_npy = detail::is_npy(input);
-  if (!is_npy && !detail::is_png(input) && !detail::is_pgm(input)) {
+  if (!has_known_start(input)) {
     input.fail({"not a depth image", "another format", "a grey PNG, PGM or NPY",
                 "save an image in any other format with numpy.save"});
   }
@@ -35,7 +47,8 @@ DepthImage read_depth(const Input& input, const ReadOptions& options) {
                 "two axes: rows, columns",
                 {}});
   }
-  if (is_npy && detail::is_npy_of_floats(input)) result.scale = 1;  // mutant: depth-scale
+  if (detail::is_npy(input) && detail::is_npy_of_floats(input))
+    result.scale = 1;  // mutant: depth-scale
   return result;
 }
 

@@ -7,6 +7,7 @@
 #include <array>
 
 #include "libph/src/io/bytes/field_access.hpp"
+#include "ph/detail/io/table.hpp"
 #include "ph/io/cloud.hpp"
 
 namespace ph {
@@ -289,7 +290,9 @@ Mesh read_ply_mesh(const Input& input, const ReadOptions& options) {
 }
 
 Mesh read_ply_mesh(const std::filesystem::path& path, const ReadOptions& options) {
-  return read_ply_mesh(Input::open(path, options.context), options);
+  return read_ply_mesh(
+      Input::open(path, options.context, Input::Excess::refused, detail::start_check(Format::ply)),
+      options);
 }
 
 }  // namespace ph

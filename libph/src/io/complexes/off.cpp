@@ -6,6 +6,7 @@
 #include <array>
 
 #include "libph/src/io/bytes/readers.hpp"
+#include "ph/detail/io/table.hpp"
 #include "ph/error.hpp"
 #include "ph/io/read.hpp"
 
@@ -130,7 +131,9 @@ Mesh read_off(const Input& input, const ReadOptions& options) {
 }
 
 Mesh read_off(const std::filesystem::path& path, const ReadOptions& options) {
-  return read_off(Input::open(path, options.context), options);
+  return read_off(
+      Input::open(path, options.context, Input::Excess::refused, detail::start_check(Format::off)),
+      options);
 }
 
 }  // namespace ph

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "libph/src/io/bytes/readers.hpp"
+#include "ph/detail/io/table.hpp"
 #include "ph/io/read.hpp"
 
 namespace ph {
@@ -121,7 +122,9 @@ BoundaryInput read_phat(const std::filesystem::path& path, const std::filesystem
   BoundaryInput result = read_phat(Input::open(path, options.context), options);
   if (!values_path.empty()) {
     result.matrix.values =
-        read_values(Input::open(values_path, options.context), result.matrix.size(), options);
+        read_values(Input::open(values_path, options.context, Input::Excess::refused,
+                                detail::start_check(Format::automatic)),
+                    result.matrix.size(), options);
   }
   return result;
 }

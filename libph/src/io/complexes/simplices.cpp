@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "libph/src/io/bytes/readers.hpp"
+#include "ph/detail/io/table.hpp"
 #include "ph/io/read.hpp"
 
 namespace ph {
@@ -55,7 +56,9 @@ SimplicesInput read_simplices(const Input& input, const ReadOptions& options) {
 }
 
 SimplicesInput read_simplices(const std::filesystem::path& path, const ReadOptions& options) {
-  return read_simplices(Input::open(path, options.context), options);
+  return read_simplices(Input::open(path, options.context, Input::Excess::refused,
+                                    detail::start_check(Format::simplices)),
+                        options);
 }
 
 }  // namespace ph

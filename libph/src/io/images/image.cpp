@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "libph/src/io/bytes/readers.hpp"
+#include "ph/detail/io/table.hpp"
 #include "ph/io/read.hpp"
 
 namespace ph {
@@ -14,7 +15,9 @@ Image read_image(const Input& input, const ReadOptions& options) {
 }
 
 Image read_image(const std::filesystem::path& path, const ReadOptions& options) {
-  return read_image(Input::open(path, options.context, Input::Excess::stays_in_file), options);
+  return read_image(Input::open(path, options.context, Input::Excess::stays_in_file,
+                                detail::start_check(Format::automatic)),
+                    options);
 }
 
 }  // namespace ph

@@ -8,6 +8,7 @@
 
 #include "libph/src/io/bytes/readers.hpp"
 #include "libph/src/io/tables/array.hpp"
+#include "ph/detail/io/table.hpp"
 #include "ph/io/read.hpp"
 
 namespace ph {
@@ -238,7 +239,9 @@ Image read_nifti(const Input& input, const ReadOptions& options) {
 }
 
 Image read_nifti(const std::filesystem::path& path, const ReadOptions& options) {
-  return read_nifti(Input::open(path, options.context, Input::Excess::stays_in_file), options);
+  return read_nifti(Input::open(path, options.context, Input::Excess::stays_in_file,
+                                detail::start_check(Format::nifti)),
+                    options);
 }
 
 }  // namespace ph

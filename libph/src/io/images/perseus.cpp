@@ -7,6 +7,7 @@
 #include "libph/src/io/bytes/readers.hpp"
 #include "libph/src/io/tables/array.hpp"
 #include "ph/barcode.hpp"
+#include "ph/detail/io/table.hpp"
 #include "ph/io/read.hpp"
 
 namespace ph {
@@ -208,7 +209,9 @@ PerseusImage read_perseus(const Input& input, const ReadOptions& options) {
 }
 
 PerseusImage read_perseus(const std::filesystem::path& path, const ReadOptions& options) {
-  return read_perseus(Input::open(path, options.context), options);
+  return read_perseus(Input::open(path, options.context, Input::Excess::refused,
+                                  detail::start_check(Format::perseus)),
+                      options);
 }
 
 }  // namespace ph

@@ -218,7 +218,8 @@ Raster read_png(const Input& input) {
 }
 
 Raster read_png(const std::filesystem::path& path, const RunContext* context) {
-  return read_png(Input::open(path, context));
+  return read_png(
+      Input::open(path, context, Input::Excess::refused, detail::start_check(Format::png)));
 }
 
 void Raster::check() const {

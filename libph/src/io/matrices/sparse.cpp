@@ -8,6 +8,7 @@
 
 #include "libph/src/io/bytes/readers.hpp"
 #include "libph/src/io/matrices/matrix_entry.hpp"
+#include "ph/detail/io/table.hpp"
 #include "ph/io/read.hpp"
 
 namespace ph {
@@ -118,7 +119,9 @@ SparseDistances read_sparse(const Input& input, const ReadOptions& options) {
 }
 
 SparseDistances read_sparse(const std::filesystem::path& path, const ReadOptions& options) {
-  return read_sparse(Input::open(path, options.context), options);
+  return read_sparse(Input::open(path, options.context, Input::Excess::refused,
+                                 detail::start_check(Format::sparse)),
+                     options);
 }
 
 }  // namespace ph

@@ -7,6 +7,7 @@
 
 #include "libph/src/io/bytes/readers.hpp"
 #include "libph/src/io/matrices/distance_rows.hpp"
+#include "ph/detail/io/table.hpp"
 
 namespace ph {
 namespace {
@@ -184,10 +185,14 @@ DistanceMatrix read_binary_distances(const Input& input, const ReadOptions& opti
 }
 
 DistanceMatrix read_lower_distances(const std::filesystem::path& path, const ReadOptions& options) {
-  return read_lower_distances(Input::open(path, options.context), options);
+  return read_lower_distances(Input::open(path, options.context, Input::Excess::refused,
+                                          detail::start_check(Format::lower_distance)),
+                              options);
 }
 DistanceMatrix read_upper_distances(const std::filesystem::path& path, const ReadOptions& options) {
-  return read_upper_distances(Input::open(path, options.context), options);
+  return read_upper_distances(Input::open(path, options.context, Input::Excess::refused,
+                                          detail::start_check(Format::upper_distance)),
+                              options);
 }
 DistanceMatrix read_binary_distances(const std::filesystem::path& path,
                                      const ReadOptions& options) {

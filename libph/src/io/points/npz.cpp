@@ -68,6 +68,8 @@ std::vector<Member> directory_of(const Input& input) {
   const std::size_t from = text.size() - std::min(text.size(), kEndSize + kMostComment);
   const std::size_t found = text.substr(from).rfind(kEnd);
   if (found == std::string_view::npos || text.size() - from - found < kEndSize) {
+    if (text.size() >= kLocal.size() && !is_npz(input))
+      input.fail_at_byte(0, {"not an NPZ archive", "a different magic number", "PK\\x03\\x04", {}});
     input.fail_at_byte(
         text.size(),
         {"truncated archive", "no directory at its end", "a zip archive of .npy files", {}});

@@ -402,7 +402,9 @@ Image read_grid(const Input& input, const ReadOptions& options) {
 }  // namespace detail
 
 Points read_points(const std::filesystem::path& path, const ReadOptions& options) {
-  return read_points(Input::open(path, options.context), options);
+  return read_points(Input::open(path, options.context, Input::Excess::refused,
+                                 detail::start_check(Format::automatic)),
+                     options);
 }
 
 }  // namespace ph

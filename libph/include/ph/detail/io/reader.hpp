@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <memory_resource>
@@ -55,15 +56,21 @@ class Input {
     is_expected,    ///< the same for all files but small ones: the caller will read only a part
   };
 
+  /// Refuses data by their first bytes: throws Error (bad_data) if no input of the expected kind
+  /// can begin with the bytes of `start`.
+  using StartCheck = std::function<void(const Input& start)>;
+
   /// @param path a file, a FIFO, or "-" for standard input; for a part of a file see split_member.
   /// @param context its memory budget limits a stream, and its stop token is polled; it must
   ///        outlive the input. Without a limit, a stream may take half of the machine's memory.
+  /// @param check is called with the first 4 KiB or more of a stream, before the rest is read: a
+  ///        stream may have no end. Files and shorter or compressed streams are not checked.
   /// @throws Error (no_input) if the file is missing, unreadable or a directory; Error (io) if
   ///         reading fails partway; Error (resource) if a stream or the unpacked data exceed the
   ///         budget; Error (bad_data) if compressed data are damaged or expand beyond reason, or if
   ///         a stream begins with 1 MiB of NUL bytes, as /dev/zero does.
   static Input open(const std::filesystem::path& path, const RunContext* context = nullptr,
-                    Excess excess = Excess::refused);
+                    Excess excess = Excess::refused, const StartCheck& check = {});
   /// An input that only views bytes, which must outlive it. @param context as for `open`.
   static Input view(std::string_view bytes, const std::string& name,
                     const RunContext* context = nullptr);

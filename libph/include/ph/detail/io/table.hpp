@@ -122,6 +122,11 @@ ArrayGuess guess_array(const Input& input, const ReadOptions& options);
 /// The format that a magic number or an extension indicates; empty for a text of numbers.
 std::optional<Format> format_by_content(const Input& input);
 
+/// For Input::open: refuses a stream that cannot have this format, because its magic number is
+/// missing or because it is not text. If the format is automatic, a stream is refused if no format
+/// can begin like it.
+Input::StartCheck start_check(Format format);
+
 /// The content of a text of numbers without a magic number.
 struct TextGuess {
   Format format = Format::points;
