@@ -14,10 +14,13 @@
 #include "apps/common/terminal/exit_code.hpp"
 #include "apps/common/terminal/messages.hpp"
 #include "apps/common/terminal/words.hpp"
+#include "ph/detail/core/machine_memory.hpp"
 #include "ph/detail/io/output_file.hpp"
 
 namespace ph::app {
 namespace {
+
+constexpr std::size_t kUsualStack = std::size_t{8} << 20;  // the limit that most systems set
 
 bool advises(const Error& error, Setting setting) {
   return std::ranges::any_of(error.remedies(),
@@ -77,6 +80,13 @@ int report_current_exception(const Program& program, std::string_view subject) {
 }
 
 int run_program(const Program& program, const std::function<int(std::stop_token)>& body) {
+  if (const std::size_t stack = stack_size(); stack != 0 && stack < kLeastStack) {
+    print_line(
+        fmt::format("{}: found a limit of {} KiB for the stack, expected at least {} KiB; "
+                    "`ulimit -s {}` sets it",
+                    program.name, stack >> 10, kLeastStack >> 10, kUsualStack >> 10));
+    return kResource;
+  }
   prepare_process();
   end_where_mapped_files_shrink(program.name);  // mutant: file-shrinks
   try {

@@ -6,9 +6,9 @@
 #include <zlib.h>
 
 #include <algorithm>
-#include <array>
 #include <cstring>
 #include <new>
+#include <vector>
 
 #include "ph/detail/core/file_pages.hpp"
 #include "ph/detail/io/base64.hpp"
@@ -61,7 +61,10 @@ class DeflatedText {
   const RunContext& context_;
   z_stream stream_{};
   detail::Base64 base64_;
-  std::array<std::uint8_t, 1 << 15> in_, out_;
+  // Too large for the stack of a small thread.
+  static constexpr std::size_t kBlock = std::size_t{1} << 15;
+  std::vector<std::uint8_t> in_ = std::vector<std::uint8_t>(kBlock);
+  std::vector<std::uint8_t> out_ = std::vector<std::uint8_t>(kBlock);
   std::size_t filled_ = 0;
   std::string text_;
 };

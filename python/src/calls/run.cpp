@@ -227,6 +227,16 @@ class Computation {
   std::exception_ptr error_, of_caller_;
 };
 
+/// @throws Error (usage) if the stack of this thread is too small.
+void require_stack() {
+  thread_local const std::size_t stack = stack_size();
+  if (stack != 0 && stack < kLeastStack)
+    throw Error(ErrorKind::usage,
+                fmt::format("found a thread with a stack of {} KiB, expected at least {} KiB; "
+                            "threading.stack_size sets the size for later threads",
+                            stack >> 10, kLeastStack >> 10));
+}
+
 }  // namespace
 
 Timeout::Timeout(double seconds)
@@ -235,6 +245,7 @@ Timeout::Timeout(double seconds)
                                               seconds)) {}
 
 void run_task(const RunOptions& options, bool is_short, const Task& task) {
+  require_stack();
   if (!is_short || options.is_watched()) {
     Computation computation(options, is_short, task);
     const Calls::Call call(&computation.stop());

@@ -34,6 +34,25 @@ def test_threads_do_not_change_the_result(compute):
             assert np.array_equal(one.death_cells(dim), other.death_cells(dim))
 
 
+@pytest.mark.parametrize("kib", [64, 96, 128, 256])
+def test_threads_with_small_stacks(kib):
+    """Threads of Python may have a stack of 32 KiB. One that is too small is an error, because a
+    computation would end the process."""
+    before = threading.stack_size(kib * 1024)
+    try:
+        with concurrent.futures.ThreadPoolExecutor(1) as pool:
+            for compute in (lambda: ph.rips(normal(1200, 3), threshold=0.3),
+                            lambda: ph.rips([[0], [1]])):
+                if kib >= 128:
+                    assert len(pool.submit(compute).result()) > 0
+                else:
+                    with pytest.raises(ph.UsageError, match=f"found a thread with a stack of {kib} "
+                                       "KiB, expected at least 128 KiB; threading.stack_size"):
+                        pool.submit(compute).result()
+    finally:
+        threading.stack_size(before)
+
+
 def test_the_gil_is_released():
     """Other Python threads continue while a computation runs."""
     ticks, stop = [], threading.Event()

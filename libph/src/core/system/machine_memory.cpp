@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "ph/detail/core/machine_memory.hpp"
 
+#include <pthread.h>
 #include <sys/resource.h>
+#include <sys/syscall.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -62,6 +64,24 @@ std::size_t machine_memory() {
   if (getrlimit(RLIMIT_AS, &address_space) == 0)
     bytes = std::min<std::uint64_t>(bytes, address_space.rlim_cur);
   return static_cast<std::size_t>(bytes / 10 * 9);
+}
+
+std::size_t stack_size() {
+#if defined(__linux__)
+  // The stack of the main thread grows up to a limit. Other threads start with their whole stack.
+  if (::syscall(SYS_gettid) == ::getpid()) {
+    rlimit stack{};
+    return ::getrlimit(RLIMIT_STACK, &stack) == 0 ? static_cast<std::size_t>(stack.rlim_cur) : 0;
+  }
+  pthread_attr_t attributes;
+  if (::pthread_getattr_np(::pthread_self(), &attributes) != 0) return 0;
+  std::size_t size = 0;
+  if (::pthread_attr_getstacksize(&attributes, &size) != 0) size = 0;
+  ::pthread_attr_destroy(&attributes);
+  return size;
+#else
+  return 0;
+#endif
 }
 
 std::optional<std::uint64_t> status_bytes(std::string_view name) {

@@ -17,6 +17,11 @@ std::uint64_t physical_memory();
 /// unlimited if the system does not report its memory.
 std::size_t machine_memory();
 
+/// The size of the stack of this thread in bytes; 0 if the system does not report it.
+std::size_t stack_size();
+/// Each thread that calls libph, and each thread that libph starts, needs a stack of this size.
+constexpr std::size_t kLeastStack = std::size_t{128} << 10;
+
 /// The smallest memory limit of the control groups of a process, of either version.
 /// @param memberships the content of the process's /proc/self/cgroup. @param root where control
 /// groups are mounted.

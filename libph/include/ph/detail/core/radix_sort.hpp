@@ -66,9 +66,9 @@ std::span<T> radix_sort_by_value(std::span<T> items, std::span<T> buffer, ValueO
     std::stable_sort(items.begin(), items.end(), precedes);
     return items;
   }
-  constexpr int digit_bits = 12, most_passes = 3;
+  constexpr int digit_bits = 12;
   constexpr std::size_t many = 1 << 22;
-  const int passes = items.size() < many ? 2 : most_passes;
+  const int passes = items.size() < many ? 2 : 3;
   constexpr std::uint64_t mask = (1U << digit_bits) - 1;
   const auto key_of = [&](const T& item) {
     return ordered_bits(static_cast<double>(value_of(item)));
@@ -77,7 +77,8 @@ std::span<T> radix_sort_by_value(std::span<T> items, std::span<T> buffer, ValueO
   std::uint64_t differing = 0;
   for (const T& item : items) differing |= key_of(item) ^ any;
   const int shift = std::max(0, static_cast<int>(std::bit_width(differing)) - passes * digit_bits);
-  std::array<std::array<std::size_t, mask + 1>, most_passes> counts{};
+  // The histograms are too large for the stack of a small thread.
+  std::vector<std::array<std::size_t, mask + 1>> counts(static_cast<std::size_t>(passes));
   for (const T& item : items) {
     const std::uint64_t key = key_of(item) >> shift;
     for (int p = 0; p < passes; ++p)

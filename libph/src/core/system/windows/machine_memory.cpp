@@ -18,6 +18,8 @@ std::size_t machine_memory() {
   return static_cast<std::size_t>((bytes == 0 ? SIZE_MAX : bytes) / 10 * 9);
 }
 
+std::size_t stack_size() { return 0; }
+
 // Windows has no control groups.
 std::optional<std::uint64_t> control_group_limit(std::istream&, const std::string&) {
   return std::nullopt;
