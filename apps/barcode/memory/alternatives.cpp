@@ -67,9 +67,9 @@ std::string alternatives(const Job& job, app::Session& session) {
   if (job.places.input == "-") return "";
   try {
     const RunContext& context = session.context();
-    const Input input =
-        Input::open(files::path_of(job.places.input), &context, Input::Excess::stays_in_file);
-    const NamedData data = read_input(input, job, context);
+    const NamedData data = read_input(
+        Input::open(files::path_of(job.places.input), &context, Input::Excess::stays_in_file), job,
+        context);
     std::vector<std::string> texts;
     if (job.question.voxel)
       if (std::string text = larger_voxel(data, job, context); !text.empty())

@@ -142,6 +142,13 @@ struct Input::Storage {
     capacity = bytes;
   }
 
+  /// Drops the pages of a mapped file before this byte, which were read. They would stay in memory
+  /// while the results grow.
+  void let_go_to(std::size_t done) {
+    if (done > let_go) forget_file_pages(data + let_go, done - let_go);
+    let_go = done;  // a second pass begins at 0 again
+  }
+
   std::pmr::memory_resource* memory;
   std::pmr::vector<char> held;
   std::optional<ScratchFile> scratch;
@@ -149,6 +156,7 @@ struct Input::Storage {
   std::size_t capacity = 0;
   std::size_t used = 0;
   bool mapped = false;
+  std::size_t let_go = 0;            // the first byte of a mapped file that may be in memory
   std::optional<MemoryClaim> claim;  // the memory of a mapped file's pages
   // True if the input exceeds the budget. It then stays in a file and is not counted.
   bool exceeds = false;
@@ -322,6 +330,7 @@ void Input::require_memory(std::size_t bytes) const {
 }
 
 void Input::poll(std::size_t done) const {
+  if (storage_ != nullptr && storage_->mapped) storage_->let_go_to(std::min(done, size()));
   if (context_ == nullptr) return;
   context_->poll();
   context_->report({"read", done, size()});

@@ -74,6 +74,14 @@ def write_inputs(folder):
     write_lines(path("corner.txt"), (f"{20 * i} " + " ".join(str(20 * i + k) for k in range(1, 16))
                                      + " : 0" for i in range(4)))
     write_lines(path("corner.values"), ("0.5" for _ in range(76)))
+    # A mesh of 46 MiB, most of which are blanks. Files of this size are mapped.
+    side, pad = 300, 200 * " "
+    write_lines(path("mesh.off"), [
+        "OFF", f"{side * side} {(side - 1)**2} 0",
+        *(f"{i // side} {i % side} 0{pad}" for i in range(side * side)),
+        *(f"3 {k} {k + 1} {k + side}{pad}"
+          for k in (side * row + i for row in range(side - 1) for i in range(side - 1)))])
+    write_lines(path("mesh.values"), (f"{random.random():.4f}" for _ in range(side * side)))
 
 
 BLOW_UPS = (
@@ -107,6 +115,8 @@ BLOW_UPS = (
     ("tree.txt", "--format", "simplices"),
     ("corner.txt", "--format", "simplices", "--complex", "lower-star", "--values",
      "corner.values"),
+    ("mesh.off", "--values", "mesh.values"),
+    ("mesh.off", "--values", "mesh.values", "--engine", "cohomology"),
 )
 
 

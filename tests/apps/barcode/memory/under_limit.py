@@ -15,7 +15,7 @@ from program import ProgramTest
 BESIDE = 32  # MiB that code, libraries and small allocations may take in addition to the limit
 PEAK = os.path.abspath(sys.argv.pop(2))
 INPUTS = tempfile.TemporaryDirectory()  # the inputs of all tests of a script
-FILES = (".txt", ".dipha", ".values", ".npy", ".gz")
+FILES = (".txt", ".dipha", ".values", ".npy", ".gz", ".off")
 
 
 def is_sanitized():

@@ -109,7 +109,8 @@ class Input {
   /// @throws Error (resource) if the run's budget does not allow `bytes` more bytes. Allocates
   /// nothing.
   void require_memory(std::size_t bytes) const;
-  /// Reports to the run how many bytes are done, if the run requested progress reports. @throws
+  /// Reports to the run how many bytes are done, if the run requested progress reports. The system
+  /// may drop these bytes of a mapped file from memory, and reads them again if necessary. @throws
   /// Error (cancelled) once a stop was requested.
   void poll(std::size_t done = 0) const;
 
