@@ -76,7 +76,10 @@ Rips RipsRecipe::rips(const RunContext& context) const {
   });
 }
 
-Built RipsRecipe::build(const RunContext& context) const { return {rips(context)}; }
+Built RipsRecipe::build(const RunContext& context) const {
+  auto data = std::make_shared<const MemoryClaim>(context.memory, space_->bytes_of_pairs());
+  return {rips(context), {}, std::move(data)};
+}
 
 bool RipsRecipe::is_short(const Options& task) const {
   // A listed simplex has at most max_dim + 2 vertices.
@@ -132,9 +135,10 @@ bool CubicalRecipe::is_short(const Options& task) const {
 Built ListedRecipe::build(const RunContext& context) const {
   Facts facts;
   facts.threshold = threshold_;
+  auto data = std::make_shared<const MemoryClaim>(context.memory, bytes_);
   ExplicitComplex complex = list_(context);
   if (threshold_) complex.set_threshold(*threshold_);
-  return {std::move(complex), std::move(facts)};
+  return {std::move(complex), std::move(facts), std::move(data)};
 }
 
 bool ListedRecipe::is_short(const Options& task) const {
@@ -150,15 +154,20 @@ std::vector<std::size_t> sizes_of(const py::buffer& array) {
   return {numbers.begin(), numbers.end()};
 }
 
+std::size_t bytes_of(const SimplexList& list) {
+  return list.vertices.size() * sizeof(Index) + list.offsets.size() * sizeof(std::size_t) +
+         list.values.size() * sizeof(double);
+}
+
 std::unique_ptr<Recipe> simplices(const py::buffer& vertices, const py::buffer& offsets,
                                   const py::buffer& values, std::optional<double> threshold) {
   SimplexList list{vector_of<Index>(vertices), sizes_of(offsets), vector_of<double>(values)};
-  const std::size_t cells = list.size();
+  const std::size_t cells = list.size(), bytes = bytes_of(list);
   return std::make_unique<ListedRecipe>(
       [list = std::move(list)](const RunContext& context) {
         return ExplicitComplex::from_simplices(list, {}, context);
       },
-      threshold, cells);
+      threshold, cells, bytes);
 }
 
 std::unique_ptr<Recipe> lower_star_of(const py::buffer& vertices, const py::buffer& offsets,
@@ -172,11 +181,12 @@ std::unique_ptr<Recipe> lower_star_of(const py::buffer& vertices, const py::buff
   std::size_t cells = values.size();
   for (std::size_t i = 0; i < list.size(); ++i)
     cells += std::size_t{1} << std::min<std::size_t>(list.offsets[i + 1] - list.offsets[i], 32);
+  const std::size_t bytes = bytes_of(list) + values.size() * sizeof(double);
   return std::make_unique<ListedRecipe>(
       [list = std::move(list), values = std::move(values)](const RunContext& context) {
         return lower_star(list, values, {}, context);
       },
-      threshold, cells);
+      threshold, cells, bytes);
 }
 
 std::unique_ptr<Recipe> boundary(const py::buffer& dims, const py::buffer& offsets,
@@ -185,11 +195,13 @@ std::unique_ptr<Recipe> boundary(const py::buffer& dims, const py::buffer& offse
   BoundaryMatrix matrix{vector_of<int>(dims), sizes_of(offsets), vector_of<Index>(rows),
                         vector_of<int>(incidences), vector_of<double>(values)};
   const std::size_t cells = matrix.size();
+  const std::size_t bytes = cells * (sizeof(int) + sizeof(std::size_t) + sizeof(double)) +
+                            matrix.rows.size() * (sizeof(Index) + sizeof(int));
   return std::make_unique<ListedRecipe>(
       [matrix = std::move(matrix)](const RunContext& context) {
         return ExplicitComplex::from_boundary(matrix, {}, context);
       },
-      threshold, cells);
+      threshold, cells, bytes);
 }
 
 /// The words for the values that a keyword accepts, such as "'cpu' or 'gpu'".

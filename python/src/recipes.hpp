@@ -25,6 +25,7 @@ struct Task {
 struct Built {
   AnyComplex complex;
   Facts facts = {};
+  std::shared_ptr<const MemoryClaim> data = nullptr;  ///< of the recipe's copies of the data
 };
 
 /// The data and options from which a complex is built. The complex is built within a run, which can
@@ -92,8 +93,10 @@ class CubicalRecipe final : public Recipe {
 class ListedRecipe final : public Recipe {
  public:
   using List = std::function<ExplicitComplex(const RunContext&)>;
-  ListedRecipe(List list, std::optional<double> threshold, std::size_t cells)
-      : list_(std::move(list)), threshold_(threshold), cells_(cells) {}
+  /// @param bytes the memory of the list. It is counted twice, because Python's arrays, from which
+  /// the list was copied, may still be in the heap.
+  ListedRecipe(List list, std::optional<double> threshold, std::size_t cells, std::size_t bytes)
+      : list_(std::move(list)), threshold_(threshold), cells_(cells), bytes_(2 * bytes) {}
 
   Built build(const RunContext& context) const override;
   bool is_short(const Options& options) const override;
@@ -101,7 +104,7 @@ class ListedRecipe final : public Recipe {
  private:
   List list_;
   std::optional<double> threshold_;
-  std::size_t cells_;
+  std::size_t cells_, bytes_;
 };
 
 }  // namespace ph::python

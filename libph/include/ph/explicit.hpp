@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <functional>
+#include <memory>
 #include <memory_resource>
 #include <optional>
 #include <span>
@@ -154,6 +155,7 @@ class ExplicitComplex {
   std::pmr::vector<std::uint32_t> of_dim_;      // ids sorted by dimension, then input position
   Incidence facets_, cofacets_;
   SimplexList simplices_;  // for kind `vertices`: the simplices of the input, vertices ascending
+  std::shared_ptr<const MemoryClaim> simplices_claim_;
 };
 
 /// The lower-star filtration: a simplex enters with the last of its vertices. The simplices may be

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "libph/src/complex/counted_list.hpp"
+
 namespace ph::alpha {
 namespace {
 
@@ -46,7 +48,14 @@ void for_each_simplex(const AlphaCells& cells, int dim, Visit&& visit) {
 
 ExplicitComplex list_simplices(const AlphaCells& cells, const Enters& enters,
                                const RunContext& context) {
-  SimplexList list;
+  std::size_t count = 0, vertices = 0;
+  for (int dim = 0; dim <= std::max(cells.dim(), 1); ++dim) {
+    std::size_t here = dim <= 1 && enters(0) ? cells.sites.copies.size() : 0;
+    for_each_simplex(cells, dim, [&](const auto&, double value) { here += enters(value) ? 1 : 0; });
+    count += here;
+    vertices += here * (static_cast<std::size_t>(dim) + 1);
+  }
+  CountedList list(count, vertices, context);
   Ticker ticker(context, "simplices");
   std::pmr::vector<Listed> simplices(&context.memory);
   std::array<Index, 4> numbers{};
@@ -73,7 +82,8 @@ ExplicitComplex list_simplices(const AlphaCells& cells, const Enters& enters,
       add(size, 0);
     }
   }
-  return ExplicitComplex::from_simplices(std::move(list), {}, context);
+  simplices = std::pmr::vector<Listed>(&context.memory);
+  return ExplicitComplex::from_simplices(list.take(), {}, context);
 }
 
 namespace {

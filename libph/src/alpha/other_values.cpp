@@ -2,8 +2,10 @@
 #include "libph/src/alpha/listed_simplices.hpp"
 
 #include <algorithm>
+#include <optional>
 
 #include "libph/src/alpha/intervals/spheres.hpp"
+#include "libph/src/complex/counted_list.hpp"
 
 namespace ph::alpha {
 namespace {
@@ -34,22 +36,22 @@ double own_ball(const Spheres& spheres, const std::array<std::uint32_t, 4>& site
 
 ExplicitComplex list_with_other_values(const AlphaCells& cells, AlphaOptions::Value value,
                                        const Enters& enters, const RunContext& context) {
-  const ExplicitComplex all = list_simplices(
-      cells, [](double) { return true; }, context);
+  std::optional<ExplicitComplex> all(list_simplices(
+      cells, [](double) { return true; }, context));
   const Spheres spheres(cells.sites);
   const auto site_of = sites_by_point(cells.sites, &context.memory);
-  std::pmr::vector<double> values(all.size(), 0.0, &context.memory);
-  SimplexList list;
+  std::pmr::vector<double> values(all->size(), 0.0, &context.memory);
+  std::size_t count = 0, vertices = 0;
   std::vector<Index> numbers;
-  Ticker ticker(context, "values", all.size());
-  for (int dim = 0; dim <= all.top_dim(); ++dim)
-    all.for_each_cell(dim, [&](const ExplicitComplex::Cell& cell) {
+  Ticker ticker(context, "values", all->size());
+  for (int dim = 0; dim <= all->top_dim(); ++dim)
+    all->for_each_cell(dim, [&](const ExplicitComplex::Cell& cell) {
       ticker.tick();
       numbers.clear();
-      all.append_input_cell(dim, cell, numbers);
+      all->append_input_cell(dim, cell, numbers);
       double& least = values[cell.id];
       if (dim > 0)
-        all.for_each_facet(dim, cell, [&](const ExplicitComplex::Cell& facet, int) {
+        all->for_each_facet(dim, cell, [&](const ExplicitComplex::Cell& facet, int) {
           least = std::max(least, values[facet.id]);
         });
       std::array<std::uint32_t, 4> sites{kNone, kNone, kNone, kNone};
@@ -58,9 +60,20 @@ ExplicitComplex list_with_other_values(const AlphaCells& cells, AlphaOptions::Va
       const bool is_own = dim == 1 || (dim > 1 && value == AlphaOptions::Value::delaunay_cech);
       // The smallest ball around a copy and its site has radius 0.
       if (is_own && sites[0] != sites[1]) least = std::max(least, own_ball(spheres, sites, dim));
-      if (enters(least)) list.add(numbers, least);
+      if (!enters(least)) return;
+      ++count;
+      vertices += numbers.size();
     });
-  return ExplicitComplex::from_simplices(std::move(list), {}, context);
+  CountedList list(count, vertices, context);
+  for (int dim = 0; dim <= all->top_dim(); ++dim)
+    all->for_each_cell(dim, [&](const ExplicitComplex::Cell& cell) {
+      if (!enters(values[cell.id])) return;
+      numbers.clear();
+      all->append_input_cell(dim, cell, numbers);
+      list.add(numbers, values[cell.id]);
+    });
+  all.reset();
+  return ExplicitComplex::from_simplices(list.take(), {}, context);
 }
 
 }  // namespace ph::alpha

@@ -5,13 +5,15 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <map>
 #include <numeric>
-#include <unordered_map>
+#include <optional>
 
 #include "ph/barcode.hpp"
+#include "ph/detail/core/fingerprint.hpp"
 #include "ph/error.hpp"
 
 namespace ph {
@@ -26,18 +28,48 @@ std::string vertex_list(std::span<const Index> vertices) {
   return fmt::format("({})", fmt::join(vertices, " "));
 }
 
-struct HashVertices {
-  std::size_t operator()(std::span<const Index> vertices) const {
-    std::size_t h = vertices.size();
-    for (const Index v : vertices) h = (h ^ static_cast<std::size_t>(v)) * 0x9E3779B97F4A7C15U;
-    return h ^ (h >> 29);
+/// The simplices of a list, found by their vertices: a hash table with linear probing. It takes 8
+/// to 16 bytes per simplex, in one block.
+class Positions {
+ public:
+  Positions(const SimplexList& simplices, const RunContext& context)
+      : simplices_(simplices),
+        slots_(std::bit_ceil(2 * simplices.size() + 1), kNone, &context.memory) {}
+
+  /// @return false if there is such a simplex already.
+  bool add(std::uint32_t simplex) {
+    std::uint32_t& slot = slot_of(simplices_.simplex(simplex));
+    if (slot != kNone) return false;
+    slot = simplex;
+    return true;
   }
-};
-struct EqualVertices {
-  bool operator()(std::span<const Index> a, std::span<const Index> b) const {
-    return std::ranges::equal(a, b);
+  std::optional<std::uint32_t> find(std::span<const Index> vertices) {
+    const std::uint32_t found = slot_of(vertices);
+    return found == kNone ? std::nullopt : std::optional(found);
   }
+
+ private:
+  static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+
+  /// The slot of a simplex, or the empty slot where it belongs.
+  std::uint32_t& slot_of(std::span<const Index> vertices) {
+    Fingerprint hash;
+    for (const Index v : vertices) hash.add(static_cast<std::uint64_t>(v));
+    const std::size_t mask = slots_.size() - 1;
+    std::size_t at = hash.value() & mask;
+    while (slots_[at] != kNone && !std::ranges::equal(simplices_.simplex(slots_[at]), vertices))
+      at = (at + 1) & mask;
+    return slots_[at];
+  }
+
+  const SimplexList& simplices_;
+  std::pmr::vector<std::uint32_t> slots_;
 };
+
+std::size_t bytes_of(const SimplexList& list) {
+  return list.vertices.size() * sizeof(Index) + list.offsets.size() * sizeof(std::size_t) +
+         list.values.size() * sizeof(double);
+}
 
 void check_size(std::size_t cells) {
   if (cells >= std::numeric_limits<std::uint32_t>::max()) {
@@ -85,15 +117,17 @@ void check_layout(const BoundaryMatrix& matrix) {
 // order.
 BoundaryMatrix boundary_of(const SimplexList& simplices, const CellNamer& name,
                            const RunContext& context) {
-  std::pmr::unordered_map<std::span<const Index>, std::size_t, HashVertices, EqualVertices>
-      position(&context.memory);
-  position.reserve(simplices.size());
+  Positions positions(simplices, context);
   BoundaryMatrix matrix;
   matrix.values = simplices.values;
+  matrix.dims.reserve(simplices.size());
+  matrix.offsets.reserve(simplices.size() + 1);
+  matrix.rows.reserve(simplices.vertices.size());
+  matrix.incidences.reserve(simplices.vertices.size());
   for (std::size_t i = 0; i < simplices.size(); ++i) {
     const auto vertices = simplices.simplex(i);
-    const auto [it, is_new] = position.emplace(vertices, i);
-    if (!is_new) fail(name, i, fmt::format("simplex {} occurs twice", vertex_list(vertices)));
+    if (!positions.add(static_cast<std::uint32_t>(i)))
+      fail(name, i, fmt::format("simplex {} occurs twice", vertex_list(vertices)));
     matrix.dims.push_back(static_cast<int>(vertices.size()) - 1);
   }
   std::vector<Index> facet;
@@ -102,13 +136,13 @@ BoundaryMatrix boundary_of(const SimplexList& simplices, const CellNamer& name,
     for (std::size_t k = 0; vertices.size() > 1 && k < vertices.size(); ++k) {
       facet.assign(vertices.begin(), vertices.end());
       facet.erase(facet.begin() + static_cast<std::ptrdiff_t>(k));
-      const auto it = position.find(facet);
-      if (it == position.end()) {
+      const auto found = positions.find(facet);
+      if (!found) {
         fail(name, i,
              fmt::format("simplex {}: its facet {} is missing", vertex_list(vertices),
                          vertex_list(facet)));
       }
-      matrix.rows.push_back(static_cast<Index>(it->second));
+      matrix.rows.push_back(static_cast<Index>(*found));
       matrix.incidences.push_back(k % 2 == 0 ? 1 : -1);
     }
     matrix.offsets.push_back(matrix.rows.size());
@@ -140,9 +174,15 @@ ExplicitComplex ExplicitComplex::from_simplices(SimplexList simplices, const Cel
     if (const auto it = std::adjacent_find(begin, end); it != end)
       fail(name, i, fmt::format("vertex {} occurs twice in one simplex", *it));
   }
+  auto claim = std::make_shared<const MemoryClaim>(context.memory, bytes_of(simplices));
+  // An upper bound on the memory of the boundary matrix.
+  const MemoryClaim for_matrix(
+      context.memory, simplices.size() * (sizeof(int) + sizeof(std::size_t) + sizeof(double)) +
+                          simplices.vertices.size() * (sizeof(Index) + sizeof(int)));
   ExplicitComplex complex = from_boundary(boundary_of(simplices, name, context), name, context);
   complex.kind_ = CellKind::vertices;
   complex.simplices_ = std::move(simplices);
+  complex.simplices_claim_ = std::move(claim);
   return complex;
 }
 
@@ -280,7 +320,8 @@ void ExplicitComplex::build_cofacets() {
   std::partial_sum(cofacets_.offsets.begin(), cofacets_.offsets.end(), cofacets_.offsets.begin());
   cofacets_.cells.resize(facets_.cells.size());
   cofacets_.incidences.resize(facets_.cells.size());
-  std::vector<std::size_t> next(cofacets_.offsets.begin(), cofacets_.offsets.end() - 1);
+  std::pmr::vector<std::size_t> next(cofacets_.offsets.begin(), cofacets_.offsets.end() - 1,
+                                     cofacets_.offsets.get_allocator());
   for (std::uint32_t id = 0; id < n; ++id) {  // the ascending order puts the oldest cofacet first
     for (std::size_t k = facets_.offsets[id]; k < facets_.offsets[id + 1]; ++k) {
       const std::size_t at = next[facets_.cells[k]]++;

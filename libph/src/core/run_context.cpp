@@ -29,6 +29,17 @@ bool is_large(std::size_t bytes, std::size_t alignment) {
   return bytes >= std::size_t{1} << 20 && alignment <= kSmallestPage;
 }
 
+// The memory that a block of the C library occupies: a header of one word and the block, rounded up
+// to a multiple of 16 bytes, and at least 32 bytes. Columns of a matrix are often this small.
+std::size_t heap_size(std::size_t bytes) {
+  constexpr std::size_t header = sizeof(std::size_t), step = 16, least = 32;
+  return std::max(least, (bytes + header + step - 1) / step * step);
+}
+
+std::size_t size_of_block(std::size_t bytes, std::size_t alignment) {
+  return is_large(bytes, alignment) ? mapped_size(bytes) : heap_size(bytes);
+}
+
 }  // namespace
 
 void MemoryBudget::require(std::size_t bytes) const {
@@ -60,12 +71,12 @@ void MemoryBudget::add_here(std::size_t bytes) {
 }
 
 void* MemoryBudget::do_allocate(std::size_t bytes, std::size_t alignment) {
-  const bool is_mapped = is_large(bytes, alignment);
-  const std::size_t taken = is_mapped ? mapped_size(bytes) : bytes;
+  const std::size_t taken = size_of_block(bytes, alignment);
   add(taken);
   try {
-    return is_mapped ? map_pages(bytes)
-                     : std::pmr::new_delete_resource()->allocate(bytes, alignment);
+    return is_large(bytes, alignment)
+               ? map_pages(bytes)
+               : std::pmr::new_delete_resource()->allocate(bytes, alignment);
   } catch (...) {
     subtract(taken);
     throw;
@@ -75,11 +86,10 @@ void* MemoryBudget::do_allocate(std::size_t bytes, std::size_t alignment) {
 void MemoryBudget::do_deallocate(void* p, std::size_t bytes, std::size_t alignment) {
   if (is_large(bytes, alignment)) {
     unmap_pages(p, bytes);
-    subtract(mapped_size(bytes));
   } else {
     std::pmr::new_delete_resource()->deallocate(p, bytes, alignment);
-    subtract(bytes);
   }
+  subtract(size_of_block(bytes, alignment));
 }
 
 void RunContext::poll() const {

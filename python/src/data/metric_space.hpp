@@ -56,6 +56,13 @@ class MetricSpace {
   /// True if each pair has a distance.
   bool is_complete() const { return !std::holds_alternative<Pairs>(numbers_); }
 
+  /// The memory of the pairs, once in Python's arrays and once as edges; 0 for other spaces.
+  std::size_t bytes_of_pairs() const {
+    const auto* pairs = std::get_if<Pairs>(&numbers_);
+    constexpr std::size_t each = 2 * sizeof(std::int64_t) + sizeof(double) + sizeof(WeightedEdge);
+    return pairs != nullptr ? pairs->i.size() * each : 0;
+  }
+
   /// The points, if the space consists of points.
   const PointSet* point_set() const { return std::get_if<PointSet>(&numbers_); }
 

@@ -258,9 +258,9 @@ TEST(VoxelImage, CountsWhatALineTakes) {
     EXPECT_EQ(context.memory.used(), 0U);
     return voxels;
   };
-  const std::size_t voxels = 1001;
-  EXPECT_EQ(with_limit(voxels * (8 + 24)), voxels);
-  EXPECT_TRUE(test::fails_with(ErrorKind::resource, [&] { with_limit(voxels * (8 + 24) - 1); }));
+  const std::size_t voxels = 1001, headers = 3 * 8, bytes = voxels * (8 + 24) + headers;
+  EXPECT_EQ(with_limit(bytes), voxels);
+  EXPECT_TRUE(test::fails_with(ErrorKind::resource, [&] { with_limit(bytes - 1); }));
 }
 
 TEST(VoxelImage, IsStoppedWithinALine) {
