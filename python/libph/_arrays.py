@@ -229,6 +229,14 @@ def as_float64(array: NDArray[Any], name: str, mask: NDArray[np.bool_] | None = 
     return numbers
 
 
+def require_room(needed: int, memory_limit: int | None, what: str) -> None:
+    """Refuses data whose conversion would take more memory than a computation may take."""
+    if memory_limit is not None and needed > memory_limit:
+        raise MemoryLimitError(f"memory limit of {memory_limit / 2**20:.3g} MiB would be exceeded: "
+                               f"the conversion of {what} may take {needed / 2**20:.3g} MiB; less "
+                               "data, or a larger memory_limit")
+
+
 def new_array(shape: int | tuple[int, ...]) -> NDArray[np.float64]:
     """A new array of float64 to be filled in. An array that does not fit into memory is refused in
     advance, because the system promises more memory than it has."""

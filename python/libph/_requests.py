@@ -160,7 +160,8 @@ def rips_request(o: dict[str, Any]) -> Request:
     """The request for X and all keywords of `rips`."""
     _run.check_names("rips", o["run"], o)
     source = source_of(o["X"], metric=o["metric"], minkowski_p=o["minkowski_p"], nan=o["nan"],
-                       diagonal=o["diagonal"], symmetrise=o["symmetrise"])
+                       diagonal=o["diagonal"], symmetrise=o["symmetrise"],
+                       memory_limit=_run.memory_limit(o["run"]))
     threshold = _threshold(o, 0)
     births, neighbours, exponent = _weights(o, source)
     subsample, radius, approximation = o["subsample"], o["subsample_radius"], o["approximation"]
@@ -333,7 +334,7 @@ def lower_star_request(o: dict[str, Any]) -> Request:
     """The request for values, simplices and all keywords of `lower_star`."""
     _run.check_names("lower_star", o["run"], o)
     values = _arrays.as_values(o["values"], "values")
-    cells = simplex_list(o["simplices"])
+    cells = simplex_list(o["simplices"], memory_limit=_run.memory_limit(o["run"]))
     recipe = _core.lower_star_recipe(cells.vertices, cells.offsets, values, _threshold(o))
     task = _task_of(o, _loops_of(o, "plain"))
     return Request(recipe, task, o["run"], _meta("lower-star", o, points=len(values)))
@@ -342,7 +343,7 @@ def lower_star_request(o: dict[str, Any]) -> Request:
 def filtered_request(o: dict[str, Any]) -> Request:
     """The request for simplices, values and all keywords of `filtered`."""
     _run.check_names("filtered", o["run"], o)
-    cells = simplex_list(o["simplices"])
+    cells = simplex_list(o["simplices"], memory_limit=_run.memory_limit(o["run"]))
     values = joined_values(o["values"], len(cells))
     recipe = _core.simplices_recipe(cells.vertices, cells.offsets, values, _threshold(o))
     task = _task_of(o, _loops_of(o, "plain"))
@@ -359,11 +360,14 @@ def boundary_request(o: dict[str, Any]) -> Request:
     if len(matrix.shape) != 2 or matrix.shape[0] != matrix.shape[1]:
         raise UsageError(f"matrix: found shape {matrix.shape}, expected a square one: a row and a "
                          "column for each cell")
+    # The copies of Python and of the library take at most this much.
+    _arrays.require_room(64 * matrix.nnz + 64 * matrix.shape[0], _run.memory_limit(o["run"]),
+                         f"the {matrix.nnz} entries of matrix")
     columns = matrix.tocsc(copy=True)
     columns.sum_duplicates()
     incidences = _arrays.as_integers(columns.data, "matrix")
     if o["field"] == 2:
-        incidences = incidences % 2  # signs do not matter
+        incidences = (incidences % 2).astype(np.int8)  # signs do not matter
     columns = type(columns)((incidences, columns.indices, columns.indptr), shape=columns.shape)
     columns.eliminate_zeros()
     cells = columns.shape[0]

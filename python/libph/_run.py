@@ -90,6 +90,14 @@ def run(function: Callable[..., _Result], *arguments: Any, options: dict[str, An
             given.get("stop"), slab_layers))
 
 
+def memory_limit(options: Mapping[str, Any]) -> int | None:
+    """The memory that a computation with these keywords may take, in bytes, if it is limited."""
+    limit = options.get("memory_limit")
+    if limit is None:
+        limit = _DEFAULTS.get().get("memory_limit")
+    return None if limit is None else _options.size("memory_limit", limit)
+
+
 def check_names(function: str, options: Mapping[str, object],
                 known: Iterable[str] | Callable[..., Any] = ()) -> None:
     """Refuses unknown keywords, as Python does for explicit keywords, and adds a hint.

@@ -17,6 +17,7 @@ METRICS = {"euclidean": "euclidean", "manhattan": "manhattan", "chebyshev": "che
            "l2": "euclidean", "l1": "manhattan", "cityblock": "manhattan"}
 _ACCEPTED = "; symmetrise='max', 'min' or 'lower' accepts it"
 _ROUNDING = 1e-6  # relative to the largest distance, as in the readers of files
+_BYTES_PER_ENTRY = 88  # the most that an entry of a sparse matrix takes while it is converted
 
 
 class Source(NamedTuple):
@@ -31,10 +32,11 @@ class Source(NamedTuple):
 
 def source_of(X: Any, *, metric: Any = "euclidean", minkowski_p: Any = 2.0, nan: Any = "error",
               diagonal: Any = "zero", symmetrise: Any = None,
-              has_nan_option: bool = True) -> Source:
+              has_nan_option: bool = True, memory_limit: int | None = None) -> Source:
     """Makes a metric space from the user's data; a Source is returned unchanged.
 
-    For a function without an option `nan`, messages do not name this option.
+    For a function without an option `nan`, messages do not name this option. A sparse matrix is
+    refused if its conversion could take more than `memory_limit` bytes.
     """
     if isinstance(X, Source):
         return X
@@ -50,7 +52,7 @@ def source_of(X: Any, *, metric: Any = "euclidean", minkowski_p: Any = 2.0, nan:
         raise UsageError(f"minkowski_p: does nothing for {found}, expected metric='minkowski'")
     if name == "precomputed":
         if _arrays.is_sparse(X):
-            return _of_sparse(X, nan, diagonal, symmetrise)
+            return _of_sparse(X, nan, diagonal, symmetrise, memory_limit)
         return _of_matrix(X, nan, diagonal, symmetrise)
     if diagonal != "zero" or symmetrise is not None:
         option = "diagonal" if diagonal != "zero" else "symmetrise"
@@ -138,20 +140,24 @@ def _warn_of_a_matrix(points: NDArray[np.float64]) -> None:
                   "distances", UserWarning, stacklevel=_options.user_level())
 
 
-def _of_sparse(X: Any, nan: str | None, diagonal: str, symmetrise: str | None) -> Source:
+def _of_sparse(X: Any, nan: str | None, diagonal: str, symmetrise: str | None,
+               memory_limit: int | None) -> Source:
     """Reads both triangles. Stored zeros are distances; pairs that are not stored are never
     joined."""
     if len(X.shape) != 2 or X.shape[0] != X.shape[1]:
         raise UsageError(f"X: found a sparse matrix of shape {X.shape}, expected a square one")
-    row, column, values = _arrays.sparse_entries(X)
+    _arrays.require_room(_BYTES_PER_ENTRY * X.nnz, memory_limit, f"the {X.nnz} entries of X")
+    # Indices keep their type, which is int32 in most matrices, until the pairs are unique.
+    coo = _arrays.coordinates(X, "X")
+    row, column, values = coo.row, coo.col, _arrays.as_float64(coo.data, "X")
+    del coo  # each array goes as soon as it is replaced
     missing = np.isnan(values)
     if missing.any():
         if nan != "drop":
             _fail(row, column, values, missing,
                   "0 or more" + ("" if nan is None else "; nan='drop' never joins such a pair"))
         row, column, values = row[~missing], column[~missing], values[~missing]
-    finite = values[np.isfinite(values)]
-    rounding = _ROUNDING * max(0.0, float(finite.max())) if finite.size else 0.0
+    rounding = _ROUNDING * float(np.max(values, where=np.isfinite(values), initial=0.0))
 
     births = None
     on_diagonal = row == column
@@ -165,17 +171,22 @@ def _of_sparse(X: Any, nan: str | None, diagonal: str, symmetrise: str | None) -
                 _fail(row, column, values, wrong, "0 on the diagonal; diagonal='births' treats it "
                       "as the birth of the point, diagonal='any' as 0")
     keep = ~on_diagonal & (values != np.inf)
-    row, column, values = row[keep], column[keep], values[keep]
+    if not keep.all():
+        row = row[keep]
+        column = column[keep]
+        values = values[keep]
     if (values < -rounding).any():
         _fail(row, column, values, values < -rounding, "0 or more")
-    i, j, values = unique_pairs(row, column, np.maximum(values, 0), rounding, symmetrise,
-                                _ACCEPTED)
-    return Source(_core.MetricSpace.of_pairs(X.shape[0], i, j, values), X.shape[0], None, births)
+    if (values < 0).any():
+        values = np.maximum(values, 0)
+    i, j, values = unique_pairs(row, column, values, rounding, symmetrise, _ACCEPTED)
+    space = _core.MetricSpace.of_pairs(X.shape[0], i.astype(np.int64), j.astype(np.int64), values)
+    return Source(space, X.shape[0], None, births)
 
 
-def unique_pairs(row: NDArray[np.int64], column: NDArray[np.int64], values: NDArray[np.float64],
+def unique_pairs(row: NDArray[Any], column: NDArray[Any], values: NDArray[np.float64],
                  rounding: float, symmetrise: str | None, hint: str, name: str = "X"
-                 ) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.float64]]:
+                 ) -> tuple[NDArray[Any], NDArray[Any], NDArray[np.float64]]:
     """Each pair once. Entries of one pair must be equal; if they differ by rounding, the entry
     below the diagonal is used."""
     i, j = np.minimum(row, column), np.maximum(row, column)
@@ -200,7 +211,7 @@ def unique_pairs(row: NDArray[np.int64], column: NDArray[np.int64], values: NDAr
     return i[starts], j[starts], chosen
 
 
-def diagonal_of(size: int, places: NDArray[np.int64], values: NDArray[np.float64], rounding: float,
+def diagonal_of(size: int, places: NDArray[Any], values: NDArray[np.float64], rounding: float,
                 symmetrise: str | None, hint: str) -> NDArray[np.float64]:
     """The diagonal of a sparse matrix, 0 where nothing is stored. Entries that are stored twice are
     treated like the two entries of a pair."""
@@ -210,7 +221,7 @@ def diagonal_of(size: int, places: NDArray[np.int64], values: NDArray[np.float64
     return diagonal
 
 
-def _fail(row: NDArray[np.int64], column: NDArray[np.int64], values: NDArray[np.float64],
+def _fail(row: NDArray[Any], column: NDArray[Any], values: NDArray[np.float64],
           wrong: NDArray[np.bool_], expected: str) -> None:
     k = int(np.argmax(wrong))
     raise DataError(f"X: row {row[k]}, column {column[k]}: found {values[k]}, expected {expected}")

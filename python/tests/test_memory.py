@@ -4,12 +4,14 @@ import gc
 import subprocess
 import sys
 import textwrap
+import tracemalloc
 
 import numpy as np
 import pytest
 
 import libph as ph
 from libph import _core
+from libph._sources import source_of
 
 MIB = 1 << 20
 
@@ -114,6 +116,29 @@ MANY = [np.array([[0.0, 1.0 + k]]) for k in range(1500)]
 def test_what_grows_with_an_option_is_counted(compute):
     with pytest.raises(ph.MemoryLimitError, match="memory limit of 10 MiB would be exceeded"):
         compute("10MiB")
+
+
+def test_the_conversion_of_a_sparse_matrix_is_counted():
+    """An entry takes at most 88 bytes, whatever the format and the types."""
+    sparse = pytest.importorskip("scipy.sparse")
+    matrix = sparse.random(4000, 4000, 0.02, format="coo", random_state=0)
+    matrix = matrix.maximum(matrix.T).tocoo()
+    matrix.setdiag(0)
+    wide = matrix.copy()
+    wide.row, wide.col = wide.row.astype(np.int64), wide.col.astype(np.int64)
+    for given in (matrix, wide, matrix.astype(np.float32), matrix.tocsr(), matrix.tolil()):
+        tracemalloc.start()
+        source = source_of(given, metric="precomputed")
+        peak = tracemalloc.get_traced_memory()[1]
+        tracemalloc.stop()
+        assert 40 * given.nnz < peak < 88 * given.nnz
+        assert source.points == 4000
+    for limit, refused in ((87 * matrix.nnz, True), (88 * matrix.nnz, False)):
+        with pytest.raises(ph.MemoryLimitError) as caught:
+            ph.rips(matrix, metric="precomputed", max_dim=3, memory_limit=limit)
+        assert (f"the {matrix.nnz} entries of X may" in str(caught.value)) == refused
+        with ph.limits(memory=limit), pytest.raises(ph.MemoryLimitError):
+            ph.rips(matrix, metric="precomputed", max_dim=3)
 
 
 def test_shuffles_take_no_memory():
