@@ -218,8 +218,8 @@ class Builder {
                                       double least = std::numeric_limits<double>::lowest(),
                                       const char* expected = "a finite number") const {
     if (path.empty()) return {};
-    const Input input = Input::open(files::path_of(path), &context_, Input::Excess::refused,
-                                    detail::start_check(Format::automatic));
+    const Input input =
+        Input::open(files::path_of(path), &context_, Input::Excess::refused, detail::start_check());
     std::vector<double> all = read_values(input, static_cast<std::size_t>(points) + dropped_,
                                           job_.reading.options, "point");
     for (std::size_t v = 0; v < all.size(); ++v)

@@ -82,7 +82,7 @@ std::vector<std::string> barcode_files(const std::vector<std::string>& inputs,
 Input open_input(const std::string& path, Session& session, Input::Excess excess) {
   std::optional<BarHold> somebody_types;
   if (is_typed({path})) somebody_types.emplace(session);
-  return Input::open(path, &session.context(), excess, detail::start_check(Format::automatic));
+  return Input::open(path, &session.context(), excess, detail::start_check());
 }
 
 StoredBarcodes::StoredBarcodes(const std::vector<std::string>& paths, Session& session)

@@ -36,7 +36,8 @@ bool may_have(const Magic& magic, const Input& start) {
   if (magic.format != Format::ply && magic.format != Format::off) return false;
   TextLines lines(start, 0, 0);
   if (!lines.next()) return true;
-  const std::string first = std::string(lines.line().substr(0, lines.line().find(' '))) + '\n';
+  const std::string first =
+      std::string(lines.line().substr(0, lines.line().find_first_of(" \t"))) + '\n';
   return magic.is_at_start(Input::view(first, {}));
 }
 
@@ -82,16 +83,28 @@ std::optional<Format> format_by_content(const Input& input) {
   return input.extension() == ".bin" ? Format::binary : Format::points;
 }
 
+Input::StartCheck start_check() {
+  return [](const Input& start) {
+    if (!by_magic(start)) TextLines{start};  // refuses bytes that are not text
+  };
+}
+
 Input::StartCheck start_check(Format format) {
-  return [format](const Input& start) {
-    const Format likely =
-        format == Format::automatic ? format_by_content(start).value_or(Format::points) : format;
-    if (likely == Format::binary || likely == Format::raw || likely == Format::phat) return;
-    const auto* const magic = std::ranges::find(kMagics, likely, &Magic::format);
-    if (magic == kMagics.end())
-      TextLines{start};  // refuses bytes that are not text
-    else if (!may_have(*magic, start))
-      format_info(likely).read(start, {});  // says what is there instead of the magic number
+  if (format == Format::binary || format == Format::raw || format == Format::phat)
+    return [](const Input&) {};
+  const auto* const magic = std::ranges::find(kMagics, format, &Magic::format);
+  if (magic != kMagics.end())
+    return [magic](const Input& start) {
+      // The reader says what is there instead of the magic number.
+      if (!may_have(*magic, start)) format_info(magic->format).read(start, {});
+    };
+  if (format != Format::automatic) return [](const Input& start) { TextLines{start}; };
+  return [](const Input& start) {
+    const std::optional<Format> known = format_by_content(start);
+    if (known == Format::points) refuse_bytes(start);
+    if (!known || known == Format::points) return;
+    const Input::StartCheck check = start_check(*known);
+    check(start);
   };
 }
 

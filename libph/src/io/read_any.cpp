@@ -101,27 +101,6 @@ Format format_of_text(const Input& input, const ReadOptions& options) {
   return guess.format;
 }
 
-// Refuses bytes that are not text and have no magic number.
-void refuse_bytes(const Input& input) {
-  const std::string hint =
-      fmt::format("{} reads numbers without a header as an image; {} reads them as points",
-                  mark(Setting::raw_shape, "N,M"), mark(Setting::raw_points, "D"));
-  detail::require_text(input, hint);
-  // Form feeds, the end mark of DOS and escape sequences occur in texts. Other control characters
-  // do not.
-  constexpr std::size_t most = 4096;
-  const std::string_view probe = input.text().substr(0, most);
-  const auto* const odd = std::ranges::find_if(probe, [](char c) {
-    return static_cast<unsigned char>(c) < 0x20 &&
-           std::string_view("\t\n\v\f\r\x1A\x1B").find(c) == std::string_view::npos;
-  });
-  if (odd == probe.end()) return;
-  const auto place = static_cast<std::size_t>(odd - probe.begin());
-  input.fail_at_byte(place,
-                     {"not plain text", "a control character, " + printable(probe.substr(place, 1)),
-                      "UTF-8", hint});
-}
-
 // The note on a file that was taken for a triangle of distances because of its name alone. Empty if
 // it cannot hold points of 3 to 5 numbers.
 std::string note_on_triangle(const Input& input) {
@@ -161,9 +140,9 @@ void add_values(ReadResult& result, const std::filesystem::path& values_path,
                 const ReadOptions& options) {
   if (values_path.empty()) return;
   const auto values_for = [&](std::size_t count, std::string_view owner) {
-    return read_values(Input::open(values_path, options.context, Input::Excess::refused,
-                                   detail::start_check(Format::automatic)),
-                       count, options, owner);
+    return read_values(
+        Input::open(values_path, options.context, Input::Excess::refused, detail::start_check()),
+        count, options, owner);
   };
   if (auto* boundary = std::get_if<BoundaryInput>(&result.data)) {
     boundary->matrix.values = values_for(boundary->matrix.size(), "cell");
@@ -202,6 +181,26 @@ void join_vertices(Mesh& mesh, const Input& input, const ReadOptions& options, R
 
 }  // namespace
 
+void detail::refuse_bytes(const Input& input) {
+  const std::string hint =
+      fmt::format("{} reads numbers without a header as an image; {} reads them as points",
+                  mark(Setting::raw_shape, "N,M"), mark(Setting::raw_points, "D"));
+  detail::require_text(input, hint);
+  // Form feeds, the end mark of DOS and escape sequences occur in texts. Other control characters
+  // do not.
+  constexpr std::size_t most = 4096;
+  const std::string_view probe = input.text().substr(0, most);
+  const auto* const odd = std::ranges::find_if(probe, [](char c) {
+    return static_cast<unsigned char>(c) < 0x20 &&
+           std::string_view("\t\n\v\f\r\x1A\x1B").find(c) == std::string_view::npos;
+  });
+  if (odd == probe.end()) return;
+  const auto place = static_cast<std::size_t>(odd - probe.begin());
+  input.fail_at_byte(place,
+                     {"not plain text", "a control character, " + printable(probe.substr(place, 1)),
+                      "UTF-8", hint});
+}
+
 ReadResult read_any(const Input& input, Format format, const ReadOptions& options,
                     const std::filesystem::path& values_path) {
   std::vector<Message> notes;
@@ -214,7 +213,7 @@ ReadResult read_any(const Input& input, Format format, const ReadOptions& option
   inner.dropped = &dropped;
   if (format == Format::automatic) {
     const auto known = detail::format_by_content(input);
-    if (known == Format::points) refuse_bytes(input);
+    if (known == Format::points) detail::refuse_bytes(input);
     format = known ? *known : format_of_text(input, inner);
     if (format == Format::binary)
       if (const std::string text = note_on_triangle(input); !text.empty())

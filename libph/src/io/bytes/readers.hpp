@@ -62,6 +62,9 @@ bool is_dipha(const Input& input);
 /// text.
 bool is_text(std::string_view bytes);
 
+/// Refuses bytes that are not text and have no magic number, and names the options that read them.
+void refuse_bytes(const Input& input);
+
 /// True if the first line of a set of points is the number of points, as in PTS.
 bool is_counted(const Input& input);
 

@@ -121,10 +121,9 @@ BoundaryInput read_phat(const std::filesystem::path& path, const std::filesystem
                         const ReadOptions& options) {
   BoundaryInput result = read_phat(Input::open(path, options.context), options);
   if (!values_path.empty()) {
-    result.matrix.values =
-        read_values(Input::open(values_path, options.context, Input::Excess::refused,
-                                detail::start_check(Format::automatic)),
-                    result.matrix.size(), options);
+    result.matrix.values = read_values(
+        Input::open(values_path, options.context, Input::Excess::refused, detail::start_check()),
+        result.matrix.size(), options);
   }
   return result;
 }

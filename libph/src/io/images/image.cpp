@@ -15,9 +15,9 @@ Image read_image(const Input& input, const ReadOptions& options) {
 }
 
 Image read_image(const std::filesystem::path& path, const ReadOptions& options) {
-  return read_image(Input::open(path, options.context, Input::Excess::stays_in_file,
-                                detail::start_check(Format::automatic)),
-                    options);
+  return read_image(
+      Input::open(path, options.context, Input::Excess::stays_in_file, detail::start_check()),
+      options);
 }
 
 }  // namespace ph

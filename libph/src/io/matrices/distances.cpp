@@ -166,9 +166,8 @@ DistanceMatrix read_distances(const Input& input, const ReadOptions& options) {
 }
 
 DistanceMatrix read_distances(const std::filesystem::path& path, const ReadOptions& options) {
-  return read_distances(Input::open(path, options.context, Input::Excess::refused,
-                                    detail::start_check(Format::automatic)),
-                        options);
+  return read_distances(
+      Input::open(path, options.context, Input::Excess::refused, detail::start_check()), options);
 }
 
 }  // namespace ph

@@ -402,9 +402,8 @@ Image read_grid(const Input& input, const ReadOptions& options) {
 }  // namespace detail
 
 Points read_points(const std::filesystem::path& path, const ReadOptions& options) {
-  return read_points(Input::open(path, options.context, Input::Excess::refused,
-                                 detail::start_check(Format::automatic)),
-                     options);
+  return read_points(
+      Input::open(path, options.context, Input::Excess::refused, detail::start_check()), options);
 }
 
 }  // namespace ph

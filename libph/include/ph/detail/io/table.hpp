@@ -126,6 +126,8 @@ std::optional<Format> format_by_content(const Input& input);
 /// missing or because it is not text. If the format is automatic, a stream is refused if no format
 /// can begin like it.
 Input::StartCheck start_check(Format format);
+/// For Input::open: refuses a stream that is not text and has no magic number.
+Input::StartCheck start_check();
 
 /// The content of a text of numbers without a magic number.
 struct TextGuess {
@@ -144,8 +146,8 @@ struct ForeignKind {
 /// Recognises a file by its first bytes, and STL also by its size; empty if it is unknown.
 std::optional<ForeignKind> foreign_kind(std::string_view bytes);
 
-/// @throws Error (bad_data) if the first bytes are not text in UTF-8. @param hint advice for bytes of
-/// an unknown kind.
+/// @throws Error (bad_data) if the first bytes are not text in UTF-8. @param hint advice for bytes
+/// of an unknown kind.
 void require_text(const Input& input, std::string_view hint);
 
 /// @throws Error (usage) if options.columns were given for an input without columns to choose.
