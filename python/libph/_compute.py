@@ -230,8 +230,8 @@ def cubical(image: Any, *, construction: str = "vertices", superlevel: bool = Fa
         voxel around it (8 or 26 neighbours).
     superlevel : bool
         If True, superlevel sets of f are used: the sublevel sets of -f, with values of -f.
-    periodic : sequence of int, or bool
-        The periodic axes; True: all axes.
+    periodic : sequence of int, bool or "all"
+        The periodic axes; True or "all": all axes.
     threshold : float, optional
         The largest value at which cells enter.
     max_dim : int, optional

@@ -134,12 +134,14 @@ def several(name: str, values: Any, what: str) -> list[Any]:
 
 
 def axes(name: str, value: Any, count: int) -> list[bool]:
-    """Some axes of an image: their numbers, a bool for each axis, or True for all.
+    """Some axes of an image: their numbers, a bool for each axis, or True or "all" for all.
 
     >>> axes("periodic", [0, -1], 3)
     [True, False, True]
     """
-    expected = f"axes from {-count} to {count - 1}, {count} bools, True or False"
+    expected = f"axes from {-count} to {count - 1}, {count} bools, 'all', True or False"
+    if isinstance(value, str) and value == "all":
+        return [True] * count
     if isinstance(value, _BOOLS):
         return [bool(value)] * count
     if isinstance(value, (str, bytes)):

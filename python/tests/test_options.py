@@ -48,7 +48,7 @@ REFUSED = [
     (ph.rips, SQUARE, "stop", ["x", True, threading.Thread]),
     (ph.cubical, IMAGE, "construction", ["x", None, "V"]),
     (ph.cubical, IMAGE, "superlevel", [1, None, "yes"]),
-    (ph.cubical, IMAGE, "periodic", [2, -3, [0, 5], "all", [True], [0.5], None, 1.5]),
+    (ph.cubical, IMAGE, "periodic", [2, -3, [0, 5], "ALL", ["all"], [True], [0.5], None, 1.5]),
     (ph.cubical, IMAGE, "threshold", [NAN, "x"]),
     (ph.cubical, IMAGE, "max_dim", [-1, "x"]),
     (ph.cubical, IMAGE, "engine", ["edge-links"]),
@@ -144,7 +144,7 @@ def test_axes_that_close_up():
     for same in ((0, -1), [True, False, True], np.array([0, 2]), {0, 2},
                  np.array([True, False, True]), (np.True_, False, np.True_)):
         assert ph.cubical(image, periodic=same) == both
-    for every in (True, np.True_):
+    for every in ("all", True, np.True_):
         assert ph.cubical(image, periodic=every) == ph.cubical(image, periodic=[0, 1, 2])
     assert ph.cubical(image, periodic=1) == ph.cubical(image, periodic=[1])
     assert ph.cubical(image, periodic=False) == ph.cubical(image)

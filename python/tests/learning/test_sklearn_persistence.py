@@ -213,7 +213,8 @@ def test_collections_of_dimensions(rng, dims):
 def test_axes_and_images_of_all_kinds(rng):
     image = rng.random((5, 5))
     expected = CubicalPersistence((0, 1, 2), periodic=True).fit_transform([image])
-    for axes in (np.array([0, 1]), [True, True], np.array([True, True]), [np.True_] * 2, (0, -1)):
+    for axes in ("all", np.array([0, 1]), [True, True], np.array([True, True]), [np.True_] * 2,
+                 (0, -1)):
         assert same(CubicalPersistence((0, 1, 2), periodic=axes).fit_transform([image]), expected)
     for axes in ((), False, [False, False]):
         with pytest.raises(ph.UsageError, match="found 2, expected less than the 2 axes"):
