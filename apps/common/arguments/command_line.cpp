@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "apps/common/arguments/foreign_options.hpp"
 #include "apps/common/arguments/options.hpp"
 #include "apps/common/files/file_identity.hpp"
 #include "apps/common/manual/help_text.hpp"
@@ -35,16 +36,11 @@ std::vector<std::string> long_names(const CLI::App& app) {
   const std::vector<std::string_view> views(known.begin(), known.end());
   // A name that was typed with one dash instead of two is also looked up.
   const std::string dashed = name.starts_with("--") ? name : "-" + name;
-  // These words stand for the highest dimension, although the spelling of another option is closer.
-  const std::string_view word = std::string_view(dashed).substr(2);
-  const bool is_dimension = word == "dim" || word == "maxdim" || word == "dimension";
-  const auto most = std::ranges::find_if(
-      views, [](std::string_view known_name) { return known_name.ends_with("max-dim"); });
-  const auto near =
-      is_dimension && most != views.end() ? std::optional(*most) : nearest_name(dashed, views);
+  std::string hint = hint_for_foreign_option(dashed, views);
+  if (const auto near = nearest_name(dashed, views); hint.empty() && near)
+    hint = fmt::format("did you mean '{}'?", *near);
   throw Error(ErrorKind::usage, fmt::format("unknown option '{}'; {}", name,
-                                            near ? fmt::format("did you mean '{}'?", *near)
-                                                 : "--help all lists the options"));
+                                            hint.empty() ? "--help all lists the options" : hint));
 }
 
 /// Puts the message of CLI11 on one line.

@@ -5,6 +5,8 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
+#include <utility>
 
 #include "ph/error.hpp"
 
@@ -30,6 +32,19 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return last[b.size()];
 }
 
+/// True if one name has a word where the other one has its opposite.
+bool are_opposites(std::string_view a, std::string_view b) {
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 4> kPairs{
+      {{"min", "max"}, {"lower", "upper"}, {"sub", "super"}, {"birth", "death"}}};
+  const auto has = [](std::string_view name, std::string_view word) {
+    return name.find(word) != name.npos;
+  };
+  return std::ranges::any_of(kPairs, [&](const auto& pair) {
+    const auto& [x, y] = pair;
+    return (has(a, x) && has(b, y) && !has(b, x)) || (has(a, y) && has(b, x) && !has(b, y));
+  });
+}
+
 }  // namespace
 
 std::optional<std::string_view> nearest_name(std::string_view typed,
@@ -47,6 +62,7 @@ std::optional<std::string_view> nearest_name(std::string_view typed,
     // A beginning or an end of a name ("--max" for "--max-dim") counts as one edit. An extra word
     // before an option's name ("--plot-title" for "--title") also counts as one edit.
     const std::string_view known = word_of(name);
+    if (are_opposites(word, known)) continue;
     const bool part = (word.size() >= 3 && (known.starts_with(word) || known.ends_with(word))) ||
                       (name.starts_with("--") && word.size() > known.size() + 1 &&
                        word.ends_with(known) && word[word.size() - known.size() - 1] == '-');

@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/common/arguments/foreign_options.hpp"
 #include "apps/common/files/file_identity.hpp"
 #include "apps/common/manual/lines.hpp"
 #include "apps/common/manual/option_text.hpp"
@@ -94,6 +95,24 @@ TEST(Choices, SuggestNothingThatIsFar) {
   EXPECT_EQ(nearest_name("--plot-size", kNames), std::nullopt);
   EXPECT_EQ(nearest_name("--tilte", kNames), "--title");
   EXPECT_EQ(nearest_name("---", kNames), std::nullopt);
+}
+
+TEST(Choices, DoNotSuggestTheOpposite) {
+  constexpr std::array<std::string_view, 3> kNames{"--min-persistence", "--max-range",
+                                                   "lower-distance"};
+  EXPECT_EQ(nearest_name("--max-persistence", kNames), std::nullopt);
+  EXPECT_EQ(nearest_name("--min-range", kNames), std::nullopt);
+  EXPECT_EQ(nearest_name("upper-distance", kNames), std::nullopt);
+  EXPECT_EQ(nearest_name("--min-persistance", kNames), "--min-persistence");
+}
+
+TEST(ForeignOptions, StandForOptionsThatTheProgramHas) {
+  constexpr std::array<std::string_view, 3> kNames{"--voxel", "--size", "--superlevel"};
+  EXPECT_EQ(hint_for_foreign_option("--voxel-size", kNames), "did you mean '--voxel'?");
+  EXPECT_EQ(hint_for_foreign_option("--sublevel", kNames),
+            "sublevel sets are the default, --superlevel takes superlevel sets");
+  EXPECT_EQ(hint_for_foreign_option("--thresh", kNames), "");
+  EXPECT_EQ(hint_for_foreign_option("--", kNames), "");
 }
 
 TEST(Placeholders, SayWhatAValueMayBe) {
