@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from typing import Any, Union
 
 import numpy as np
@@ -50,14 +51,19 @@ def checked_infinity(infinity: Any, may_keep: bool) -> Infinity:
     return number
 
 
-def settled(dgm: Diagram, infinity: Infinity, name: str) -> Diagram:
-    """The diagram, with infinite deaths treated as `infinity` specifies."""
+def settled(dgm: Diagram, infinity: Infinity, name: str,
+            other_way: Callable[[Diagram], str] | None = None) -> Diagram:
+    """The diagram, with infinite deaths treated as `infinity` specifies.
+
+    The message of the error names what `other_way` returns before the values of `infinity`.
+    """
     endless = np.isinf(dgm[:, 1])
     if infinity == "keep" or not endless.any():
         return dgm
     if infinity == "error":
+        way = other_way(dgm) if other_way else ""
         raise UsageError(f"{name}: row {int(np.argmax(endless))}: found a bar that never dies; "
-                         "infinity='drop' leaves such bars out, infinity=NUMBER sets their death")
+                         + (way and f"{way}; ") + "infinity='drop' leaves such bars out, infinity=NUMBER sets their death")
     if infinity == "drop":
         kept: Diagram = dgm[~endless]
         return kept

@@ -79,7 +79,8 @@ def diagram_kernels(diagrams: Iterable[Barcode | ArrayLike],
             if endless.any():
                 j = int(np.argmax(endless))
                 raise UsageError(f"{name}[{i}]: row {j}: found birth {dgm[j, 0]} and death "
-                                 f"{dgm[j, 1]}, expected finite numbers")
+                                 f"{dgm[j, 1]}, expected finite numbers; "
+                                 "dgm[np.isfinite(dgm).all(axis=1)] leaves out all other bars")
     return np.asarray(_run.run(_core.kernels, rows, columns, choice, options=dict(run)))
 
 

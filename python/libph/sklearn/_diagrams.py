@@ -55,6 +55,15 @@ def samples_like(fitted: Sequence[str], X: Any) -> Samples:
     return samples
 
 
+def without_component(dgm: Diagram) -> str:
+    """The option that leaves out the only bar that never dies, if it is born first, as a component
+    is; otherwise an empty text."""
+    endless = np.isinf(dgm[:, 1])
+    if np.count_nonzero(endless) != 1 or dgm[endless, 0] > dgm[:, 0].min():
+        return ""
+    return "RipsPersistence(reduced=True), for example, leaves out the component that never dies"
+
+
 def _rows_of(samples: Sequence[Any]) -> Samples:
     samples = [sample[0] if isinstance(sample, (list, tuple)) and len(sample) == 1
                and isinstance(sample[0], Barcode) else sample for sample in samples]

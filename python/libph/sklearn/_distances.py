@@ -9,8 +9,9 @@ from joblib import effective_n_jobs
 from numpy.typing import NDArray
 
 from .. import _distances, _options
+from .._errors import UsageError
 from .._vectors import _kernels
-from ._diagrams import Samples
+from ._diagrams import Samples, without_component
 from ._pairs import BesideFitted
 
 
@@ -111,6 +112,8 @@ class DiagramKernels(BesideFitted):
         self.n_jobs = n_jobs
 
     def _all(self, samples: Samples, others: Samples | None) -> NDArray[np.float64]:
+        for what, given in (("sample", samples), ("fitted sample", others)):
+            _require_deaths(given, what)
         of_diagrams = [
             _kernels.diagram_kernels(
                 [row[k] for row in samples.rows],
@@ -120,6 +123,19 @@ class DiagramKernels(BesideFitted):
             for k in range(self.n_features_in_)]
         result: NDArray[np.float64] = np.sum(of_diagrams, axis=0)
         return result
+
+
+def _require_deaths(samples: Samples | None, what: str) -> None:
+    if samples is None:
+        return
+    for i, row in enumerate(samples.rows):
+        for dgm, name in zip(row, samples.names):
+            endless = np.flatnonzero(np.isinf(dgm[:, 1]))
+            if len(endless):
+                way = without_component(dgm) or (
+                    "RipsPersistence(infinity='drop'), for example, leaves such bars out")
+                raise UsageError(f"{what} {i}, {name}: row {endless[0]}: found a bar that never "
+                                 f"dies; {way}")
 
 
 def _joined(distances: NDArray[np.float64], norm: float) -> NDArray[np.float64]:

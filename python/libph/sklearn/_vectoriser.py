@@ -14,7 +14,7 @@ from .._errors import UsageError
 from .._vectors import Diagram, Range, checked_infinity, settled
 from .._vectors._ranges import checked_range
 from ._base import MakesTables, TakesDiagrams
-from ._diagrams import Samples, samples_like, samples_of
+from ._diagrams import Samples, samples_like, samples_of, without_component
 
 
 class Vectoriser(MakesTables, TransformerMixin, TakesDiagrams):
@@ -99,7 +99,7 @@ class Vectoriser(MakesTables, TransformerMixin, TakesDiagrams):
     def _settled(self, samples: Samples) -> list[list[Diagram]]:
         """The diagrams, with bars that never die treated as `infinity` specifies."""
         rule = checked_infinity(self.infinity, self._may_keep)
-        return [[settled(dgm, rule, f"sample {i}, {name}")
+        return [[settled(dgm, rule, f"sample {i}, {name}", without_component)
                  for dgm, name in zip(row, samples.names)] for i, row in enumerate(samples.rows)]
 
     def _check(self) -> None:

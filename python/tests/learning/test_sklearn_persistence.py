@@ -15,7 +15,8 @@ from samples import of_class, same
 
 pytest.importorskip("sklearn", reason="scikit-learn is missing: nothing of libph.sklearn is tested")
 from libph import _core  # noqa: E402
-from libph.sklearn import AlphaPersistence, CubicalPersistence, RipsPersistence  # noqa: E402
+from libph.sklearn import (AlphaPersistence, CubicalPersistence, DiagramKernels,  # noqa: E402
+                           Entropy, PersistenceImage, RipsPersistence)
 
 OF_LISTS = [RipsPersistence, AlphaPersistence, CubicalPersistence]
 
@@ -116,6 +117,19 @@ def test_bars_that_never_die(clouds):
     assert RipsPersistence(infinity=9.0).fit_transform(clouds)[0][0][-1].tolist() == [0, 9]
     with pytest.raises(ph.UsageError, match="H0: row 11: found a bar that never dies"):
         RipsPersistence(infinity="error").fit_transform(clouds)
+    # Vectorisers name the option that leaves out the component.
+    names = r"RipsPersistence\(reduced=True\), for example, leaves out the component"
+    for vectoriser in (Entropy(), PersistenceImage(), DiagramKernels()):
+        with pytest.raises(ph.UsageError, match=f"sample 0, dgm0: row 11: .*never dies; {names}"):
+            vectoriser.fit_transform(plain)
+        assert len(vectoriser.fit_transform(RipsPersistence(reduced=True).fit_transform(clouds)))
+    with pytest.raises(ph.UsageError, match=f"fitted sample 0, dgm0: row 11: .*; {names}"):
+        DiagramKernels().fit(plain).transform(dropped)
+    # With a threshold, several components never die.
+    scattered = RipsPersistence(threshold=1e-6).fit_transform(clouds)
+    for vectoriser in (Entropy(), DiagramKernels()):
+        with pytest.raises(ph.UsageError, match="never dies; (RipsPersistence.)?infinity='drop'"):
+            vectoriser.fit_transform(scattered)
     # The component that is born first is left out.
     image = [[0.0, np.inf, 1.0]]
     assert CubicalPersistence(homology_dimensions=0, reduced=True).fit_transform(image)[0].tolist() \
