@@ -122,10 +122,21 @@ def as_array(data: Any, name: str) -> NDArray[Any]:
     return array
 
 
+def is_graph(data: Any) -> bool:
+    """True for a graph of networkx, which NumPy takes for the sequence of its vertices."""
+    return hasattr(data, "adjacency") and hasattr(data, "edges")
+
+
+def _no_array(data: Any, name: str) -> UsageError:
+    from . import _hints
+    is_path = isinstance(data, (str, bytes, os.PathLike))
+    hint = "; ph.read(path) reads a file" if is_path else _hints.of_object(data)
+    return UsageError(f"{name}: found {type(data).__name__}, expected an array of numbers{hint}")
+
+
 def _converted(data: Any, name: str) -> NDArray[Any]:
-    if data is None or isinstance(data, (str, bytes, dict, set, frozenset)):
-        hint = "; ph.read(path) reads a file" if isinstance(data, (str, bytes)) else ""
-        raise UsageError(f"{name}: found {type(data).__name__}, expected an array of numbers{hint}")
+    if data is None or isinstance(data, (str, bytes, dict, set, frozenset)) or is_graph(data):
+        raise _no_array(data, name)
     if hasattr(data, "detach") and callable(data.detach):  # a tensor that requires a gradient
         data = data.detach()
     try:
@@ -137,8 +148,7 @@ def _converted(data: Any, name: str) -> NDArray[Any]:
     except Exception as error:  # foreign objects may raise anything
         raise DataError(f"{name}: {_ragged(data) or f'found no array of numbers: {error}'}") from None
     if array.dtype.kind == "O" and array.ndim == 0:
-        hint = "; ph.read(path) reads a file" if isinstance(data, os.PathLike) else ""
-        raise UsageError(f"{name}: found {type(data).__name__}, expected an array of numbers{hint}")
+        raise _no_array(data, name)
     if array.dtype.kind == "O" and isinstance(data, (list, tuple)) and _ragged(data):
         raise DataError(f"{name}: {_ragged(data)}")
     return array

@@ -241,7 +241,7 @@ def read_barcode(path: str | os.PathLike[str], format: str | None = None,
     -------
     Barcode
     """
-    _run.check_names("read_barcode", dict(run))
+    _run.check_names("read_barcode", dict(run), read_barcode)
     bars, meta, left_out = _run.run(_core.read_barcode, _options.path_of(path),
                           None if format is None else str(format), options=dict(run))
     if left_out:

@@ -12,6 +12,7 @@ from . import _core, _options, _run
 from ._errors import UsageError
 
 
+@_options.with_hints
 class SpatialImage(np.ndarray[Any, np.dtype[Any]]):
     """An image that knows the places of its voxels in space.
 
@@ -104,6 +105,7 @@ _NIFTI_HEADER = np.dtype({
     "offsets": [0, 40, 70, 72, 76, 108, 112, 254, 280, 344], "itemsize": 348})
 
 
+@_options.with_hints
 def write_nifti(path: str | os.PathLike[str], image: ArrayLike, affine: ArrayLike | None = None
                 ) -> None:
     """Writes an image to a NIfTI-1 file (.nii), completely or not at all.

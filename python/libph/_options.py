@@ -11,12 +11,14 @@ import os
 import re
 import sys
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from typing import Any
+from types import FunctionType
+from typing import Any, TypeVar
 
 import numpy as np
 
 from ._errors import UsageError
 
+_Door = TypeVar("_Door", bound=Callable[..., Any])
 _BOOLS = (bool, np.bool_)
 _UNITS = {"": 1, "B": 1, "K": 10**3, "M": 10**6, "G": 10**9, "T": 10**12,
           "KI": 2**10, "MI": 2**20, "GI": 2**30, "TI": 2**40}
@@ -169,6 +171,44 @@ def user_level() -> int:
     while frame.f_back is not None and frame.f_globals.get("__name__", "").startswith("libph"):
         frame, level = frame.f_back, level + 1
     return level
+
+
+# ---- keywords that a function does not have
+
+
+def with_hints(door: _Door) -> _Door:
+    """A function that answers an unknown keyword with the one that is meant; for a class, its
+    constructor and its methods do.
+
+    Functions with run options do this with `_run.check_names`.
+    """
+    if isinstance(door, type):
+        for name, member in list(vars(door).items()):
+            function = getattr(member, "__func__", member)  # of a static method
+            if isinstance(function, FunctionType) and (
+                    not name.startswith("_") or name in ("__init__", "__new__")):
+                answering = with_hints(function)
+                setattr(door, name, answering if function is member else type(member)(answering))
+        return door  # type: ignore[return-value]
+    if door.__code__.co_flags & inspect.CO_VARKEYWORDS:
+        return door
+
+    @functools.wraps(door)
+    def call(*arguments: Any, **keywords: Any) -> Any:
+        try:
+            return door(*arguments, **keywords)
+        except TypeError:
+            known = inspect.signature(door).parameters
+            unknown = [name for name in keywords if name not in known]
+            if not unknown:
+                raise
+            from . import _hints
+            name = door.__name__
+            if name in ("__init__", "__new__"):
+                name = door.__qualname__.split(".")[-2]
+            raise _hints.unexpected(name, unknown[0], list(known)) from None
+
+    return call  # type: ignore[return-value]
 
 
 # ---- keywords of one function that another one accepts as well

@@ -78,6 +78,7 @@ def point_image(X: ArrayLike, voxel: float, *, value: str = "distance", margin: 
     return PointImage(np.asarray(image), np.asarray(first), edge)
 
 
+@_options.with_hints
 def delay_embedding(series: ArrayLike, dimension: int, delay: int = 1, *,
                     window: int | None = None, step: int | None = None) -> NDArray[np.float64]:
     """The delay embedding of a time series: each point has the values at several times.

@@ -42,6 +42,7 @@ if hasattr(os, "register_at_fork"):
 
 
 @contextlib.contextmanager
+@_options.with_hints
 def limits(*, memory: int | str | None = None, threads: int | None = None,
            timeout: float | None = None, progress: Progress | None = None) -> Iterator[None]:
     """Sets defaults for all computations of this thread or task within a ``with`` block.
@@ -108,8 +109,7 @@ def check_names(function: str, options: Mapping[str, object],
         if name not in _NAMES:
             from . import _hints
             others = inspect.signature(known).parameters if callable(known) else known
-            raise TypeError(f"{function}() got an unexpected keyword argument '{name}'"
-                            + _hints.of_keyword(name, [*others, *_NAMES]))
+            raise _hints.unexpected(function, name, [*others, *_NAMES])
 
 
 def _check(given: dict[str, Any]) -> dict[str, Any]:

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 _MOST = 2**63 - 1
 
 
+@_options.with_hints
 def p_values(bars: Barcode | ArrayLike, dim: int | None = None, *, filtration: str | None = None,
              corrected: bool = True) -> NDArray[np.float64]:
     """The p-value of each bar: the probability that a bar of noise stands out at least as much.

@@ -28,9 +28,12 @@ def simplex_list(simplices: Any, name: str = "simplices",
     tuples. A list is refused if its conversion could take more than `memory_limit` bytes."""
     if isinstance(simplices, SimplexList):
         return simplices
-    if isinstance(simplices, (str, bytes, dict)) or not isinstance(simplices, Iterable):
+    if isinstance(simplices, (str, bytes, dict)) or not isinstance(simplices, Iterable) or (
+            _arrays.is_graph(simplices)):
+        from . import _hints
         raise UsageError(f"{name}: found {type(simplices).__name__}, expected an array with a "
-                         "simplex per row, a list of such arrays, or a list of tuples of vertices")
+                         "simplex per row, a list of such arrays, or a list of tuples of vertices"
+                         + _hints.of_object(simplices))
     if hasattr(simplices, "__array__"):
         _require_room([simplices], memory_limit, name)
         return _joined([_of_array(simplices, name)])

@@ -19,6 +19,7 @@ _ALPHA_OPTIONS = ("threshold", "values", "squared", "weights", "nan")
 _RUN_OPTIONS = ("threads", "memory_limit", "progress", "timeout", "stop")
 
 
+@_options.with_hints
 class MergeTree:
     """H0 as a tree: how components of the sublevel sets join as the value grows.
 

@@ -58,7 +58,7 @@ def test_plot_of_one_dimension(kind):
     for dim, labels in ((1, ["H1"]), ([0, 1], ["H0", "H1"]), (None, ["H0", "H1"])):
         ax = bars.plot(kind, ax=Figure().add_subplot(), dims=dim)
         assert [text.get_text() for text in ax.get_legend().get_texts()] == labels
-    with pytest.raises(ph.UsageError, match=r"dim: .*did you mean dims=1\?"):
+    with pytest.raises(ph.UsageError, match="dim: .*did you mean 'dims'"):
         bars.plot(kind, ax=Figure().add_subplot(), dim=1)
 
 

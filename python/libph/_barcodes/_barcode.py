@@ -48,6 +48,7 @@ class Bar(NamedTuple):
         return self.death - self.birth if self.birth != self.death else 0.0
 
 
+@_options.with_hints
 class Barcode(Cells, Summaries, Sequence[Bar]):
     """The result of persistent homology: bars, ordered by dimension, birth and death.
 

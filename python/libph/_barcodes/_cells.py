@@ -15,6 +15,7 @@ from . import _places
 from ._chains import Chain
 
 
+@_options.with_hints
 class Cells:
     """The methods of `Barcode` that locate its holes."""
 

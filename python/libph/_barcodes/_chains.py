@@ -35,6 +35,7 @@ class Loop(NamedTuple):
         return in_brief(self)
 
 
+@_options.with_hints
 class Chain:
     """A cycle or cocycle: cells of the input, each with its coefficient.
 

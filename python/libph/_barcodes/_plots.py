@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from .. import _options
+from .. import _hints, _options
 from .._errors import UsageError
 
 if TYPE_CHECKING:
@@ -19,8 +19,10 @@ if TYPE_CHECKING:
 def plot(bars: Barcode, kind: Any, ax: Axes | None, dims: Any, noise: float | None,
          style: dict[str, Any]) -> Axes:
     """See `Barcode.plot`."""
-    if "dim" in style:
-        raise UsageError(f"dim: plot has no such keyword; did you mean dims={style['dim']!r}?")
+    for name in style:
+        hint = _hints.of_foreign_keyword(name, ["kind", "ax", "dims", "noise"])
+        if hint:
+            raise UsageError(f"{name}: plot has no such keyword{hint}")
     if dims is not None:
         bars = bars.filter(dim=dims)
     draw = {"diagram": _diagram, "barcode": _lines, "betti": _betti}[

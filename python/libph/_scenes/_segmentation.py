@@ -58,6 +58,7 @@ class Voxels(NamedTuple):
         return in_brief(self)
 
 
+@_options.with_hints
 class Segmentation:
     """The objects of a scene: a merge tree and one cut of it.
 
@@ -182,7 +183,7 @@ class Segmentation:
         UsageError
             If no cut was found that has `n` objects.
         """
-        _run.check_names("cut", dict(run))
+        _run.check_names("cut", dict(run), self.cut)
         method = self.meta["method"]
         if min_part is not None:
             if method == "paper":
@@ -268,7 +269,7 @@ class Segmentation:
         **run
             `threads`, `memory_limit`, `progress`, `timeout`, `stop`; see `libph`.
         """
-        _run.check_names("signature", dict(run))
+        _run.check_names("signature", dict(run), self.signature)
         chosen = [self._label("labels", label) for label in labels]
         if not chosen:
             raise UsageError("labels: found none, expected the label of an object")
@@ -332,7 +333,7 @@ class Segmentation:
         NotBuiltIn
             If libph was built without npm.
         """
-        _run.check_names("report", dict(run))
+        _run.check_names("report", dict(run), self.report)
         require_page()
         path = self.meta.get("path", "")
         title = str(title) or os.path.basename(path) or repr(self)

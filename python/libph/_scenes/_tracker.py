@@ -32,6 +32,7 @@ class Tracked(NamedTuple):
     on: tuple[str, int] | None
 
 
+@_options.with_hints
 class LabelTracker:
     """Gives the objects of a stream of frames stable numbers and roles.
 

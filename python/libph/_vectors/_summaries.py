@@ -18,6 +18,7 @@ from ._ranges import (Range, checked_range, checked_resolution, default_bandwidt
 from ._steps import PiecewiseLinear, StepFunction, refuse_nan
 
 
+@_options.with_hints
 class Summaries:
     """The methods of `Barcode` that summarise it in numbers; `Barcode` defines `dgm`."""
 

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from .. import _options
 from .persim import plot_diagrams
 from .ripser import ripser
 
@@ -19,6 +20,7 @@ else:
         TransformerMixin = object
 
 
+@_options.with_hints
 class Rips(TransformerMixin):
     """`ripser` as a class that keeps its results.
 

@@ -176,6 +176,7 @@ def _without_bounds(numbers: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.where(numbers >= _NEVER / 2, np.inf, numbers)
 
 
+@_options.with_hints
 def to_gudhi_diagrams(ph: ArrayLike, *, maxdim: int | None = None, include_empty: bool = True
                       ) -> list[NDArray[np.float64]]:
     """A diagram for each dimension: rows birth, death, with inf for bars that never die.

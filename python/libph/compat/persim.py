@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 __all__ = ["__version__", "bottleneck", "plot_diagrams", "wasserstein"]
 
 
+@_options.with_hints
 def bottleneck(dgm1: ArrayLike, dgm2: ArrayLike, matching: bool = False) -> Any:
     """The bottleneck distance between the bars that die; others are left out with a warning.
 
@@ -40,6 +41,7 @@ def bottleneck(dgm1: ArrayLike, dgm2: ArrayLike, matching: bool = False) -> Any:
     return _with_costs(_distances.bottleneck_matching(a, b), np.inf)
 
 
+@_options.with_hints
 def wasserstein(dgm1: ArrayLike, dgm2: ArrayLike, matching: bool = False) -> Any:
     """The Wasserstein distance of order 1 with Euclidean ground norm between the bars that die; all
     other bars are left out with a warning.
@@ -93,6 +95,7 @@ def _finite(dgm: ArrayLike, name: str) -> NDArray[np.float64]:
     return np.ascontiguousarray(rows[keep, :2])
 
 
+@_options.with_hints
 def plot_diagrams(diagrams: Any, plot_only: Any = None, title: str | None = None,
                   xy_range: Any = None, labels: Any = None, colormap: str = "default",
                   size: float = 20, ax_color: Any = "black", diagonal: bool = True,

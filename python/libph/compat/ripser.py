@@ -151,6 +151,7 @@ def _pairwise(X: Any, metric: Any, *others: Any) -> NDArray[Any]:
     return np.asarray(pairwise_distances(X, *others, metric=metric))
 
 
+@_options.with_hints
 def get_greedy_perm(X: Any, n_perm: int | None = None, distance_matrix: bool = False,
                     metric: Any = "euclidean"
                     ) -> tuple[NDArray[np.int64], NDArray[np.float64], NDArray[Any]]:
@@ -224,6 +225,7 @@ def lower_star_img(img: ArrayLike, *, dtype: DTypeLike = np.float32, **run: Unpa
     return _flag.bars_of(barcode, 0, kind).dgms[0]
 
 
+@_options.with_hints
 def correlation_to_distance(C: ArrayLike, check_input: bool = True) -> NDArray[np.float64]:
     """Converts correlations c to distances: the square root of 2 (1 - c), from 0 to 2, with 0 on
     the diagonal.

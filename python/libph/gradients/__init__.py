@@ -25,7 +25,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .. import _arrays
+from .. import _arrays, _options
 from .._barcodes import Barcode
 from .._errors import UsageError
 from ._edges import RipsValues
@@ -34,6 +34,7 @@ from ._values import CellValues, StarValues, VoxelValues
 __all__ = ["deciders", "pullback"]
 
 
+@_options.with_hints
 def pullback(bars: Barcode, X: Any, d_births: ArrayLike | None = None,
              d_deaths: ArrayLike | None = None, *, weights: ArrayLike | None = None) -> Any:
     """The derivative of a function of births and deaths with respect to the data.
@@ -100,6 +101,7 @@ def pullback(bars: Barcode, X: Any, d_births: ArrayLike | None = None,
     return values.gradient()
 
 
+@_options.with_hints
 def deciders(bars: Barcode, X: Any, *, weights: ArrayLike | None = None
              ) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
     """The elements of the input that determine each birth and each death.

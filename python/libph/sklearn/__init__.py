@@ -18,6 +18,7 @@ array([[0.414],
 """
 import typing as _typing
 
+from .. import _options
 from ._atol import Atol
 from ._clustering import PersistenceClustering
 from ._curves import BettiCurve, Landscape, LifeEntropy, Silhouette
@@ -32,6 +33,9 @@ __all__ = ["AlphaPersistence", "Atol", "BettiCurve", "CubicalPersistence", "Diag
            "DiagramKernels", "DistanceToMeasure", "Entropy", "EulerCurve", "FarthestPoints", "Landscape", "Lengths",
            "LifeEntropy", "PersistenceClustering", "PersistenceImage", "RipsPersistence",
            "Silhouette", "Statistics"]
+
+for _name in __all__:
+    _options.with_hints(globals()[_name])
 
 if not _typing.TYPE_CHECKING:  # hidden from type checkers, which then report missing names
 

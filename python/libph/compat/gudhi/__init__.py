@@ -54,6 +54,7 @@ def __getattr__(name: str) -> Any:
     return missing
 
 
+@_options.with_hints
 def bottleneck_distance(diagram_1: Any, diagram_2: Any, e: float | None = None) -> float:
     """The bottleneck distance between two diagrams.
 

@@ -21,6 +21,7 @@ class _FileError(MissingInputError, RuntimeError):
     """GUDHI raises RuntimeError if a file cannot be read."""
 
 
+@_options.with_hints
 class CubicalComplex(Persistence):
     """The cubical complex of an image.
 
@@ -163,6 +164,7 @@ class CubicalComplex(Persistence):
         return np.asarray(np.ravel_multi_index(tuple(voxels.T), self._image.shape, order="F"))
 
 
+@_options.with_hints
 class PeriodicCubicalComplex(CubicalComplex):
     """The cubical complex of an image with some periodic axes.
 

@@ -15,6 +15,7 @@ class _OrderError(UsageError, RuntimeError):
     """GUDHI raises RuntimeError if nothing has been computed yet."""
 
 
+@_options.with_hints
 class Persistence:
     """Keeps the computed bars, and returns them in the forms of GUDHI."""
 

@@ -28,6 +28,7 @@ _TREE_METHODS = {
     "write_persistence_diagram"}
 
 
+@_options.with_hints
 class FlagTree(Persistence):
     """A Rips complex, up to a dimension. Simplices are not listed.
 
@@ -188,6 +189,7 @@ class FlagTree(Persistence):
         return matrix, options, values[order], simplices[order]
 
 
+@_options.with_hints
 class RipsComplex:
     """The Rips complex of points or distances.
 
@@ -219,6 +221,7 @@ class RipsComplex:
         return FlagTree(self._data, self._rips, max_dimension)
 
 
+@_options.with_hints
 class WeightedRipsComplex:
     """The Rips complex of points that enter at twice their weights.
 
@@ -246,6 +249,7 @@ class WeightedRipsComplex:
         return FlagTree(self._data, self._rips, max_dimension)
 
 
+@_options.with_hints
 class DTMRipsComplex(WeightedRipsComplex):
     """The weighted Rips complex whose weights are distances to a measure.
 

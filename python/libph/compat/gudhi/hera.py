@@ -17,6 +17,7 @@ class _WidthError(UsageError, TypeError):
     """The rows of a diagram are not pairs (birth, death). GUDHI raises TypeError for it."""
 
 
+@_options.with_hints
 def bottleneck_distance(X: Any, Y: Any, delta: float = 0.01) -> float:
     """The bottleneck distance between two diagrams.
 
@@ -42,6 +43,7 @@ def bottleneck_distance(X: Any, Y: Any, delta: float = 0.01) -> float:
     return distance
 
 
+@_options.with_hints
 def wasserstein_distance(X: Any, Y: Any, order: float = 1.0, internal_p: float = float("inf"),
                          delta: float = 0.01, matching: bool = False) -> Any:
     """The Wasserstein distance between two diagrams.

@@ -68,6 +68,7 @@ class _DiagramsOfEach(TransformerMixin, BaseEstimator):
         return [f"H{dim}" for dim in self._dims()]
 
 
+@_options.with_hints
 class RipsPersistence(_DiagramsOfEach):
     """Diagrams of Rips filtrations.
 
@@ -129,6 +130,7 @@ def _lower(x: Any) -> NDArray[np.float64]:
     return square + square.T
 
 
+@_options.with_hints
 class CubicalPersistence(_DiagramsOfEach):
     """Diagrams of images.
 

@@ -14,6 +14,7 @@ from .hera import _check_width
 __all__ = ["wasserstein_distance"]
 
 
+@_options.with_hints
 def wasserstein_distance(X: Any, Y: Any, matching: bool = False, order: float = 1.0,
                          internal_p: float = math.inf, enable_autodiff: bool = False,
                          keep_essential_parts: bool = True) -> Any:
