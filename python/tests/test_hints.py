@@ -274,9 +274,11 @@ def test_names_in_hints_are_there():
     pytest.importorskip("sklearn", reason="scikit-learn is missing, which libph.sklearn needs")
     bars = ph.rips(POINTS)
     tables = [(_hints.MODULE, ph), (_hints.BARCODE, bars), (_hints.SKLEARN, ph.sklearn)]
+    for missing in (_hints.MISSING_NAMES, _hints.MISSING_MODULES):
+        tables += [(table, None) for table in missing.values()]
     for table, owner in tables:
         for name, hint in table.items():
-            assert not hasattr(owner, name)
+            assert owner is None or not hasattr(owner, name)
             for path in re.findall(r"\b(?:libph|ph)((?:\.\w+)+)", hint):
                 if path == ".torch" and not importlib.util.find_spec("torch"):
                     continue
@@ -285,7 +287,7 @@ def test_names_in_hints_are_there():
                     found = getattr(found, part)
             for call in re.findall(r"(?<![.\w])(?:bars\.)?(\w+)\(", hint):
                 assert hasattr(bars, call) or call == "len", (name, call)
-    for hint in _hints.SKLEARN.values():
+    for hint in [*_hints.SKLEARN.values(), _hints.MISSING_MODULES["gudhi"]["representations"]]:
         for name in re.findall(r"\b(?:use|with|has|and|,) ([A-Z]\w+)", hint):
             assert hasattr(ph.sklearn, name) or name in ("KeplerMapper", "Landscape"), hint
 

@@ -6,9 +6,11 @@ import difflib
 from collections.abc import Iterable
 from typing import Any
 
-from ._tables import BARCODE, EXPLAINED, MODULE, OBJECTS, OPPOSITES, SAME, SKLEARN
+from ._tables import (BARCODE, EXPLAINED, MISSING_MODULES, MISSING_NAMES, MODULE, OBJECTS,
+                      OPPOSITES, SAME, SKLEARN)
 
-__all__ = ["BARCODE", "EXPLAINED", "MODULE", "OBJECTS", "SAME", "SKLEARN", "of_foreign_keyword", "of_keyword", "of_name", "of_object", "unexpected"]
+__all__ = ["BARCODE", "EXPLAINED", "MISSING_MODULES", "MISSING_NAMES", "MODULE", "OBJECTS", "SAME",
+           "SKLEARN", "of_foreign_keyword", "of_keyword", "of_name", "of_object", "unexpected"]
 
 
 def of_name(name: str, table: dict[str, str], known: Iterable[str]) -> str:

@@ -126,6 +126,70 @@ SKLEARN = _table(
      "KeplerMapper and giotto-tda have it"),
 )
 
+# Functions and classes that a package has and the drop-in for it does not have.
+MISSING_NAMES = {
+    "persim": _table(
+        ("PersistenceImager PersImage", "use bars.image(dim), or libph.sklearn.PersistenceImage"),
+        ("PersLandscapeExact", "use bars.exact_landscape(dim)"),
+        ("PersLandscapeApprox PersistenceLandscaper",
+         "use bars.landscape(dim), or libph.sklearn.Landscape"),
+        ("heat", "use ph.diagram_kernels"),
+        ("sliced_wasserstein", "use ph.sliced_wasserstein"),
+        ("persistent_entropy", "use bars.entropy(dim), or libph.sklearn.Entropy"),
+        ("bottleneck_matching", "use ph.bottleneck_matching(a, b).plot()"),
+        ("wasserstein_matching", "use ph.wasserstein_matching(a, b).plot()"),
+        ("gromov_hausdorff plot_landscape plot_landscape_simple death_vector vectorize snap_pl "
+         "lc_approx average_approx average_exact", ""),
+    ),
+    "gudhi": _table(
+        ("SimplexTree", "use ph.filtered(simplices, values)"),
+        ("AlphaComplex DelaunayComplex", "use ph.alpha"),
+        ("DelaunayCechComplex", "use ph.alpha with values='delaunay-cech'"),
+        ("WitnessComplex StrongWitnessComplex EuclideanWitnessComplex "
+         "EuclideanStrongWitnessComplex", "use ph.rips with subsample, the number of landmarks"),
+        ("choose_n_farthest_points", "ph.farthest_points gives the indices of the points"),
+        ("sparsify_point_set", "ph.farthest_points(X, radius=r) thins points out"),
+        ("plot_persistence_barcode", "use bars.plot('barcode')"),
+        ("plot_persistence_diagram", "use bars.plot()"),
+        ("read_points_from_off_file", "ph.read(path).vertices has the points of an OFF file"),
+        ("read_persistence_intervals_in_dimension read_persistence_intervals_grouped_by_dimension",
+         "use ph.read_barcode"),
+        ("read_lower_triangular_matrix_from_csv_file", "use ph.read"),
+        ("sklearn.CechPersistence",
+         "use libph.sklearn.AlphaPersistence with values='delaunay-cech'"),
+        ("CoverComplex MapperComplex NerveComplex GraphInducedComplex TangentialComplex "
+         "pick_n_random_points plot_persistence_density write_points_to_off_file", ""),
+    ),
+}
+MISSING_MODULES = {
+    "persim": _table(
+        ("images images_kernels images_weights",
+         "use bars.image(dim), or libph.sklearn.PersistenceImage"),
+        ("landscapes", "use bars.landscape(dim), or libph.sklearn.Landscape"),
+        ("heat", "use ph.diagram_kernels"),
+        ("sliced_wasserstein", "use ph.sliced_wasserstein"),
+        ("persistent_entropy", "use bars.entropy(dim), or libph.sklearn.Entropy"),
+        ("gromov_hausdorff", ""),
+    ),
+    "gudhi": _table(
+        ("representations", "libph.sklearn has PersistenceImage, Landscape, Silhouette, BettiCurve, "
+         "Entropy, Atol, DiagramDistances and DiagramKernels"),
+        ("clustering", "use libph.sklearn.PersistenceClustering"),
+        ("wasserstein.barycenter", "use ph.barycentre"),
+        ("subsampling", "use ph.farthest_points"),
+        ("persistence_graphical_tools", "use bars.plot()"),
+        ("alpha_complex delaunay_complex", "use ph.alpha"),
+        ("point_cloud", "use ph.delay_embedding, ph.distance_to_measure"),
+        ("off_utils off_reader", "use ph.read"),
+        ("reader_utils", "use ph.read_barcode"),
+        ("sklearn.cech_persistence",
+         "use libph.sklearn.AlphaPersistence with values='delaunay-cech'"),
+        ("tensorflow", "libph.torch and libph.gradients differentiate bars"),
+        ("cover_complex tangential_complex nerve_gic datasets witness_complex "
+         "strong_witness_complex euclidean_witness_complex euclidean_strong_witness_complex", ""),
+    ),
+}
+
 # Objects of other packages, by two of their attributes.
 OBJECTS = [
     ("adjacency edges", "networkx.to_scipy_sparse_array(graph) has the lengths of its edges, which "

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 
 from .. import _options
 from .._errors import UsageError
+from . import _missing as _missing  # its finder explains which modules a drop-in lacks
 
 __all__ = ["install"]
 

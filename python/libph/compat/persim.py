@@ -11,11 +11,17 @@ from numpy.typing import ArrayLike, NDArray
 from .. import _arrays, _distances, _options
 from .._core import version as __version__
 from .._errors import UsageError
+from . import _missing
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 __all__ = ["__version__", "bottleneck", "plot_diagrams", "wasserstein"]
+__path__: list[str] = []  # like a package; the statement `import persim.images` gets a hint
+
+
+def __getattr__(name: str) -> Any:
+    return _missing.attribute(__name__, name, __all__)
 
 
 @_options.with_hints

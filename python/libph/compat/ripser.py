@@ -21,7 +21,7 @@ from .. import _arrays, _options, _run
 from .._compute import cubical
 from .._core import version as __version__
 from .._errors import DataError, NotBuiltIn, UsageError
-from . import _flag
+from . import _flag, _missing
 from .persim import plot_diagrams as plot_dgms
 
 if TYPE_CHECKING:
@@ -38,7 +38,7 @@ def __getattr__(name: str) -> Any:
     if name == "Rips":  # its base class is part of scikit-learn
         from ._ripser_class import Rips
         return Rips
-    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return _missing.attribute(__name__, name, __all__)
 
 
 def ripser(X: Any, maxdim: int = 1, thresh: float = np.inf, coeff: int = 2,

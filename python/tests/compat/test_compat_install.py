@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Tests how Python loads the drop-ins, and tests the drop-in for persim."""
+import importlib
 import itertools
 import subprocess
 import sys
@@ -8,6 +9,7 @@ import numpy as np
 import pytest
 
 import libph as ph
+from libph import _hints
 from libph.compat import persim
 
 INF = np.inf
@@ -149,6 +151,92 @@ def test_install_refuses():
     assert run(code).split("\n")[:-1] == [
         "install: ripser is already imported", "install: found 'scipy'", "install: found 'flagser'",
         "False"]
+
+
+# ---- parts of the originals that the drop-ins lack
+
+
+@pytest.mark.parametrize("package", ["gudhi", "persim"])
+def test_missing_names(package):
+    for path, hint in _hints.MISSING_NAMES[package].items():
+        module, _, name = f"libph.compat.{package}.{path}".rpartition(".")
+        if module.endswith("sklearn"):
+            pytest.importorskip("sklearn", reason="scikit-learn is missing")
+        module = importlib.import_module(module)
+        assert name not in vars(module), "the drop-in has it: delete the row"
+        with pytest.raises(ph.NotBuiltIn) as refused:
+            getattr(module, name)(1, key=2)
+        assert str(refused.value).endswith(" has it" + (hint and f"; {hint}"))
+
+
+def test_missing_modules():
+    """Each row, imported as a part of the original and of libph, and as a name."""
+    code = """if True:
+        import importlib
+        from libph import _hints, compat
+        compat.install("gudhi", "persim")
+        count = 0
+        for package, table in _hints.MISSING_MODULES.items():
+            for path, hint in table.items():
+                parent, _, name = f"{package}.{path}".rpartition(".")
+                if parent == "gudhi.sklearn":
+                    try:
+                        import sklearn
+                    except ImportError:
+                        continue
+                end = " has it" + (hint and f"; {hint}")
+                statements = [f"import {parent}.{name}", f"import libph.compat.{parent}.{name}"]
+                if path not in _hints.MISSING_NAMES[package]:
+                    statements += [f"from {parent} import {name}"]
+                for statement in statements:
+                    try:
+                        exec(statement)
+                    except ImportError as error:
+                        assert str(error).endswith(end), (statement, error)
+                        count += 1
+                    else:
+                        raise AssertionError(f"{statement}: the drop-in has it: delete the row")
+        print(count)
+    """
+    assert int(run(code)) > 50
+
+
+def test_unknown_names_and_modules():
+    code = """if True:
+        from libph import compat
+        compat.install("gudhi", "ripser", "persim")
+        import gudhi, ripser
+        for statement in ("gudhi.RipsComplx", "gudhi.tensorflow", "ripser.riper",
+                          "import gudhi.nothing", "from gudhi import nothing", "import nothing"):
+            try:
+                exec(statement)
+            except (AttributeError, ImportError) as error:
+                print(type(error).__name__, str(error).partition(" (")[0])
+    """
+    assert run(code).splitlines() == [
+        "AttributeError module 'libph.compat.gudhi' has no attribute 'RipsComplx'; did you mean "
+        "'RipsComplex'?",
+        "AttributeError module 'libph.compat.gudhi' has no attribute 'tensorflow'; GUDHI has it; "
+        "libph.torch and libph.gradients differentiate bars",
+        "AttributeError module 'libph.compat.ripser' has no attribute 'riper'; did you mean "
+        "'ripser'?",
+        "ModuleNotFoundError No module named 'gudhi.nothing'",
+        "ImportError cannot import name 'nothing' from 'libph.compat.gudhi'",
+        "ModuleNotFoundError No module named 'nothing'"]
+
+
+def test_other_packages_of_the_same_name_are_left_alone():
+    code = """if True:
+        import sys, types
+        sys.modules["gudhi"] = genuine = types.ModuleType("gudhi")
+        genuine.__path__ = []
+        import libph.compat
+        try:
+            import gudhi.representations
+        except ImportError as error:
+            print(error)
+    """
+    assert run(code) == "No module named 'gudhi.representations'\n"
 
 
 # ---- persim

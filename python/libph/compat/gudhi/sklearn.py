@@ -15,12 +15,18 @@ from ..._barcodes import Barcode
 from ..._batch import computed
 from ..._compute import cubical, rips
 from ..._errors import UsageError
+from .. import _missing
 from .._flag import ordered
 
 __all__ = ["CubicalPersistence", "RipsPersistence"]
+__path__: list[str] = []  # like a package; `import gudhi.sklearn.cech_persistence` gets a hint
 
 _RIPS_INPUTS = ["point cloud", "full distance matrix", "lower distance matrix",
                 "distance coo_matrix"]
+
+
+def __getattr__(name: str) -> Any:
+    return _missing.attribute(__name__, name, __all__)
 
 
 class _DiagramsOfEach(TransformerMixin, BaseEstimator):

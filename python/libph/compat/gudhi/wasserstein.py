@@ -12,6 +12,7 @@ from ..._errors import NotBuiltIn
 from .hera import _check_width
 
 __all__ = ["wasserstein_distance"]
+__path__: list[str] = []  # like a package; `import gudhi.wasserstein.barycenter` gets a hint
 
 
 @_options.with_hints
