@@ -81,7 +81,8 @@ Scene clear_scene(const CloudView& cloud, const SegmentOptions& options, StageCl
   if (scene.plane) {
     result.plane_sight = sight_past(cloud, in_range, *scene.plane, scene.margin);
     if (options.method == Method::surface) {
-      clear_surfaces(in_range, search.others, sample, options.most_supports, scene, result.tree);
+      clear_surfaces(in_range, search.others, sample, result.plane_sight, options.most_supports,
+                     scene, result.tree);
     } else {
       scene.points = remove_plane(cloud, in_range, *scene.plane, scene.margin);
       add_surface(Role::support, *scene.plane, cloud, scene.points.on, result.tree);

@@ -33,7 +33,7 @@ class SpatialImage(np.ndarray[Any, np.dtype[Any]]):
     Examples
     --------
     >>> scan = ph.SpatialImage(np.zeros((4, 5, 6)), np.diag([1.0, 1.0, 2.5, 1.0]))
-    >>> ph.cubical(scan).affine[2, 2]
+    >>> float(ph.cubical(scan).affine[2, 2])
     2.5
     """
 

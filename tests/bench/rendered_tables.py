@@ -62,7 +62,7 @@ class RenderedTables(unittest.TestCase):
     def test_rows_that_were_not_measured_have_no_origin(self):
         name = f"{RESULTS}/segmentation-constants.csv"
         header = (self.root / name).read_text(encoding="utf-8").split("\n")[0]
-        cells = ["yes", *"fnvuwc", "", "", "", "", "", ""]
+        cells = ["yes", *"fnvuwc", "", "", "", "", "", "", ""]
         measured = [*cells[:-4], "bench/scenes/score.py", "", "2026-01-31", ""]
         for rows, caption in (([cells, cells], ""),
                               ([cells, measured, cells], "`bench/scenes/score.py`; 2026-01-31.\n\n"),

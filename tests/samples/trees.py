@@ -14,8 +14,8 @@ NO_VERTEX = 0xFFFFFFFF
 def header(method, size, counts, distance, plane, cut):
     """The header of a stored tree. @param counts vertices, merges, points with a vertex, edges.
     @param cut value, min_part, … The plane, if there is one, is the only surface."""
-    surface = words("<", SUPPORT, *plane[1:]) if plane[0] else b""
-    return b"ph-tree\n" + words("<", 3, method, *size, *counts, 1.0, 0.0, 0.0, 0.0, distance, 0,
+    surface = words("<", SUPPORT, *plane[1:], *[0.] * 15) if plane[0] else b""
+    return b"ph-tree\n" + words("<", 4, method, *size, *counts, 1.0, 0.0, 0.0, 0.0, distance, 0,
                                 *plane, *cut, plane[0], plane[0], 0) + surface
 
 

@@ -161,6 +161,7 @@ std::optional<Candidate> as_good_as_before(const std::optional<Plane>& guess,
 /// Computes PlaneSearch::noise and PlaneSearch::noise_along.
 void measure_noise(const Candidate& plane, const Sample& sample, const Eigen::Vector3d& viewpoint,
                    PlaneSearch& search) {
+  constexpr std::size_t fewest = 30;
   constexpr double median_of_half_normal = 0.6745;  // in standard deviations
   const double height = plane.normal.dot(viewpoint) + plane.offset;
   std::vector<double> across, along;
@@ -171,7 +172,7 @@ void measure_noise(const Candidate& plane, const Sample& sample, const Eigen::Ve
     across.push_back(depth / (range * range));
     along.push_back(depth / (range * height));
   }
-  if (across.empty()) return;
+  if (across.size() < fewest) return;
   search.noise = median(std::move(across)) / median_of_half_normal;
   search.noise_along = median(std::move(along)) / median_of_half_normal;
 }

@@ -86,7 +86,10 @@ void add_surface(Role role, const Plane& plane, const CloudView& cloud,
 }
 
 void clear_surfaces(const std::vector<Index>& in_range, const std::vector<Plane>& planes,
-                    const Sample& sample, Index most_supports, Scene& scene, SceneTree& tree) {
+                    const Sample& sample, const PlaneSight& sight, Index most_supports,
+                    Scene& scene, SceneTree& tree) {
+  // A share; in scenes in their sensor's frame, it is at most 0.03.
+  constexpr double much_hidden = 0.1;
   const CloudView& cloud = scene.cloud;
   const Plane& plane = *scene.plane;
   add_surface(Role::support, plane, cloud, {}, tree);
@@ -98,7 +101,7 @@ void clear_surfaces(const std::vector<Index>& in_range, const std::vector<Plane>
   std::ranges::sort(boards, {}, [](const Board& board) { return -board.plane.offset; });
   // Nothing may be seen below the lowest support. Otherwise, the scene ends at the plane.
   const bool has_lower = !boards.empty() && boards.front().plane.offset > plane.offset &&
-                         is_lowest(boards.front().plane, cloud);
+                         sight.hidden < much_hidden && is_lowest(boards.front().plane, cloud);
   if (!has_lower)
     std::erase_if(boards, [&](const Board& b) { return b.plane.offset > plane.offset; });
   if (boards.empty()) {

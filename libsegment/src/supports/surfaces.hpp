@@ -41,6 +41,7 @@ void add_surface(Role role, const Plane& plane, const CloudView& cloud,
 /// @param in_range the points in range. @param planes large planes other than the support.
 /// @param sample a sample of the points in range. @param most_supports at least 1.
 void clear_surfaces(const std::vector<Index>& in_range, const std::vector<Plane>& planes,
-                    const Sample& sample, Index most_supports, Scene& scene, SceneTree& tree);
+                    const Sample& sample, const PlaneSight& sight, Index most_supports,
+                    Scene& scene, SceneTree& tree);
 
 }  // namespace ph::segment

@@ -37,7 +37,7 @@ def test_a_process_with_one_call_imports_little():
         print(len(ours), len(new - ours), *sorted(new - ours))
     """).replace("CALL", ONE_CALL)
     ours, others, *names = run_python(code).stdout.split()
-    assert int(ours) <= 25 and int(others) <= 25, names
+    assert int(ours) <= 28 and int(others) <= 25, names
     assert not {name.partition(".")[0] for name in names} & {
         "difflib", "joblib", "matplotlib", "pandas", "scipy", "sklearn", "torch", "tqdm"}
 
@@ -89,6 +89,7 @@ CALLS = {
     "sliced_wasserstein": "(bars, bars)",
     "wasserstein": "(bars, bars)",
     "wasserstein_matching": "(bars, bars, 0)",
+    "write_nifti": "(os.path.join(FOLDER, 'image.nii'), X)",
 }
 
 # Calls each function in a process of its own, which has imported only NumPy and what the arguments

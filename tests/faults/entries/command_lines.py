@@ -102,8 +102,6 @@ BARCODE = [
     (49, ["--quiet", "--verbose"], "--quiet: cannot be combined with --verbose"),
     (49, ["--plot", "x.svg", "--size", "10"], "--size"),
     (49, ["--plot", "x.svg", "--axis", "2,1"], "--axis"),
-    (49, ["--plot", "x.svg", "--plot-kind", "tree", "--dims", "1"], "--dims"),
-    (49, ["--dims", "1"], "--dims needs --plot"),
     (49, ["--compare", "square.txt", "square.txt"], "--compare"),
     (50, ["--quiet=perhaps"], "--quiet"),
     (50, ["-o", ""], "--output"),

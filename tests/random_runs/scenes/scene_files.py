@@ -322,14 +322,14 @@ def read_tree(content):
         at += values.nbytes
         return values
     version, method, columns, rows, vertices, merges, points, edges = take("<i8", 8).tolist()
-    assert version == 3, version
+    assert version == 4, version
     voxel, *viewpoint, distance = take("<f8", 5).tolist()
     take("<i8", 2)
     take("<f8", 5)
     take("<f8", 1)
     take("<i8", 3)
     surfaces, _, ranges = take("<i8", 3).tolist()
-    at += surfaces * 48 + ranges * 16
+    at += surfaces * 168 + ranges * 16
     corners = take("<f8", 3 * vertices).reshape(-1, 3)
     centroids = take("<f8", 3 * vertices).reshape(-1, 3)
     if method != 1:
