@@ -3,6 +3,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <filesystem>
@@ -11,6 +12,7 @@
 #include <string>
 #include <thread>
 
+#include "ph/detail/core/file_pages.hpp"
 #include "ph/io/cloud.hpp"
 #include "ph/io/write.hpp"
 #include "tests/libph/io/read_support.hpp"
@@ -125,6 +127,30 @@ TEST(PosixInput, ReadsStreamsWhoseMagicWordComesLate) {
       vertices;
   const auto read = [](const std::filesystem::path& path) { return read_any(path, Format::ply); };
   EXPECT_EQ(std::get<Points>(read_from_fifo(ply, read).data).rows(), 2000);
+}
+
+TEST(PosixInput, MappedTextLeavesMemoryAsItIsRead) {
+  constexpr std::size_t mib = std::size_t{1} << 20, lines = 24'000;
+  const TempDir dir;
+  const auto path = dir.file("padded.txt");
+  {
+    std::ofstream out(path);
+    const std::string padding(1000, ' ');
+    for (std::size_t i = 0; i < lines; ++i) out << i << " 2" << padding << '\n';
+  }
+  const ResidentFiles resident;
+  if (resident.bytes() == 0) GTEST_SKIP() << "the system does not tell the memory";
+  const Input input = Input::open(path);
+  ASSERT_GT(input.size(), 20 * mib) << "large enough to be mapped";
+  const std::size_t before = resident.bytes();
+  std::size_t most = before;
+  for (int pass = 0; pass < 2; ++pass) {
+    std::size_t found = 0;
+    for (TextLines text(input); text.next(); ++found)
+      if (found % 100 == 0) most = std::max(most, resident.bytes());
+    EXPECT_EQ(found, lines);
+  }
+  EXPECT_LT(most, before + 4 * mib);
 }
 
 TEST(PosixInput, StopsWaitingOnRequest) {
