@@ -178,6 +178,8 @@ class Run {
     const auto taken = static_cast<double>(session_.memory_taken());
     if (job_.results.significance)
       session_.note("--significance does nothing: --dry-run computes no bars");
+    if (!job_.results.look.dims.empty())
+      session_.note("--dims does nothing: --dry-run computes no bars");
     const Estimate estimated = in_name_of(loaded.name, [&] {
       return estimate(loaded.built.complex, job_.question.options, context());
     });

@@ -254,8 +254,8 @@ def inputs(Input, program):
         nan=connections(lambda i, j: math.nan if {i, j} == {0, 1} else length(i, j)))
     add("NPY image", ["i.npy"], {"i.npy": files.array((5, 6), floats)}, 4, nan=files.array((5, 6), one_nan))
     add("NPY whole numbers", ["i.npy"], {"i.npy": files.array((5, 6), grey, "|u1")}, 4)
-    add("NPY volume", ["v.npy"], {"v.npy": files.array((3, 3, 3), volume)}, 4,
-        nan=files.array((3, 3, 3), [math.nan, *volume[1:]]))
+    add("NPY volume", ["v.npy"], {"v.npy": files.array((3, 3, 2), volume[:18])}, 4,
+        nan=files.array((3, 3, 2), [math.nan, *volume[1:18]]))
     # With one axis, both constructions have the same bars, and only a periodic axis has a loop.
     add("NPY series", ["s.npy"], {"s.npy": files.array((30,), floats)}, 4, nan=files.array((30,), one_nan),
         rows={"--loops": (("--loops", "none"), {"beside": [*LOOPS, "--periodic", "all"]}),

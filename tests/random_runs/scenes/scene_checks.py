@@ -200,10 +200,7 @@ class Check:
         require(plane["share"] >= 0.1, "a plane of less than a tenth of the points")
         margin = a.plane_distance or (0.006 if a.method == "paper" else 0.005)
         if a.method != "paper":
-            # The base of an object may be within the margin of the plane, but not in the lowest
-            # fifth of the margin.
-            if a.method == "supervoxels":
-                require(not self.labels[kept & (height < 0.2 * margin * (1 - 1e-9))].any(), "a label on the plane")
+            # The base of an object may be within the margin of the plane.
             return None
         near = abs(abs(height[kept]) - margin) < 1e-9 * margin + 1e-14 * abs(self.xyz[kept]).max(initial=0)
         if near.any():
