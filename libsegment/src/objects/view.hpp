@@ -10,8 +10,8 @@
 namespace ph::segment {
 
 /// The voxels as the sensor saw them. The view is a raster of directions with cells of about one
-/// voxel, and with the nearest voxel in each cell. If there would be far more cells than voxels,
-/// the raster has fewer and larger cells. Voxels more than 78 degrees from the middle are left out.
+/// voxel, and with the nearest voxel in each cell. If there would be more than 1024 rows or columns,
+/// the cells are larger. Voxels more than 78 degrees from the middle are left out.
 class View {
  public:
   using Voxel = std::uint32_t;

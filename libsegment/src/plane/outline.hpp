@@ -1,11 +1,25 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <utility>
 #include <vector>
 
+#include "ph/scene_tree.hpp"
+
 namespace ph::segment {
+
+/// The rotation that turns `up`, a unit vector, into the z axis. The directions of x and y are
+/// arbitrary.
+inline Eigen::Matrix3d upright(const Vec3& up) {
+  const Eigen::Vector3d normal(up.data());
+  Eigen::Matrix3d turn;
+  turn.row(0) = normal.unitOrthogonal();
+  turn.row(1) = normal.cross(turn.row(0));
+  turn.row(2) = normal;
+  return turn;
+}
 
 /// Points of a plane, or the corners of a polygon, counterclockwise.
 using Outline = std::vector<Eigen::Vector2d>;

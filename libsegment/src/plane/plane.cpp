@@ -22,7 +22,8 @@ constexpr int kRefits = 4;
 constexpr double kOfSearch = 2;
 // A share of the largest spread. Points that spread less across it lie on a line.
 constexpr double kLeastSpread = 1e-9;
-// Points behind a plane by more than so many margins belong to another surface.
+// Points behind a plane by more than this belong to another surface. The unit is a margin, or
+// `margins` of them in a search.
 constexpr double kFarBehind = 6;
 
 struct Candidate {

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "libsegment/src/plane/outline.hpp"
-#include "libsegment/src/vessels/upper_end.hpp"
 
 namespace ph::segment {
 namespace {

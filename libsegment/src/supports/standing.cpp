@@ -102,11 +102,11 @@ bool reaches(const Segment& segment, const SceneSurface& support, const Vec3& vi
   const auto [x, y, _] = within(segment.centroid);
   if (!is_over_box(x, y)) return false;
   if (below <= kThickestBoard) return true;
-  // The ray to the end passes the lower side of the support here.
+  // The sensor is above the support. The ray to the end passes the lower side of the support here.
   const Vec3 eye = within(viewpoint);
   const double share = (below - kThickestBoard) / (below + eye[2]);
   // mutant: role-hidden
-  return share < 1 && is_over_box(x + share * (eye[0] - x), y + share * (eye[1] - y));
+  return is_over_box(x + share * (eye[0] - x), y + share * (eye[1] - y));
 }
 
 /// Sets the role of the legs of tables: slender segments under a support, where there is a floor.

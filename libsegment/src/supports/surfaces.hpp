@@ -31,7 +31,7 @@ struct Scene {
   std::vector<Index> before;
 };
 
-/// Adds a surface to a tree, and marks the points that were removed with it.
+/// Adds a surface to a tree, marks the points that were removed with it, and measures their box.
 void add_surface(Role role, const Plane& plane, const CloudView& cloud,
                  const std::vector<Index>& points, SceneTree& tree);
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "libsegment/src/plane/outline.hpp"
 #include "libsegment/src/scene/parts.hpp"
 #include "libsegment/src/vessels/circle.hpp"
 #include "libsegment/src/vessels/upper_end.hpp"

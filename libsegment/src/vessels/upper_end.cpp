@@ -1,20 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "libsegment/src/vessels/upper_end.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <functional>
 
 namespace ph::segment {
-
-Eigen::Matrix3d upright(const Vec3& up) {
-  const Eigen::Vector3d normal(up.data());
-  Eigen::Matrix3d turn;
-  turn.row(0) = normal.unitOrthogonal();
-  turn.row(1) = normal.cross(turn.row(0));
-  turn.row(2) = normal;
-  return turn;
-}
 
 UpperEnd upper_end_of(const std::vector<Eigen::Vector3d>& points, double depth) {
   // One point in this many may be higher than the upper end.

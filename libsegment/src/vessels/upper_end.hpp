@@ -3,13 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "ph/scene_tree.hpp"
-
 namespace ph::segment {
-
-/// The rotation that turns `up`, a unit vector, into the z axis. The directions of x and y are
-/// arbitrary.
-Eigen::Matrix3d upright(const Vec3& up);
 
 /// The upper end of an object, seen from above.
 struct UpperEnd {
