@@ -134,8 +134,10 @@ ConcavityNoise noise_of(const Scene& scene, double voxel, const RunContext& cont
 /// Joins voxels that lie behind each other and are not adjacent, because the noise of depth tears a
 /// distant surface into layers. @param pairs pairs of voxels that are near each other.
 void add_edges_along_rays(const Scene& scene, const VoxelGrid& grid, const VoxelPairs& pairs,
-                          double voxel, double least_range, std::vector<WeightedEdge>& edges) {
+                          double voxel, std::vector<WeightedEdge>& edges) {
   constexpr double deviations = 2;
+  // The range from which the default edge of a voxel grows.
+  const double least_range = SegmentOptions().voxel_size() / kEdgePerMetre;
   const double radius = kAdjacent * voxel;
   const Eigen::Vector3d eye(scene.cloud.viewpoint.data());
   const auto place = [&](std::uint32_t v) -> Eigen::Vector3d {
@@ -207,7 +209,7 @@ VoxelFiltration surface_filtration(const Scene& scene, const SegmentOptions& opt
     edges.push_back({p.v, p.u, p.distance});
   });
   if (options.method == Method::surface && scene.noise > 0)
-    add_edges_along_rays(scene, grid, pairs, voxel, options.voxel_size() / kEdgePerMetre, edges);
+    add_edges_along_rays(scene, grid, pairs, voxel, edges);
   if (options.method == Method::supervoxels)
     values = distance_to_seeds(grid.centroids, edges, values, options.spacing, context);
   FilteredGraph graph = FilteredGraph::lower_star(values, edges, context);
