@@ -109,7 +109,7 @@ MUTANTS = [
         ("boards: what is hidden is no part of one", "board-hull", "area_of_hull", "area"),
         ("boards: they hide what is below them", "board-below", "|| height < -std::max(limit, kThickestBoard)", ""),
         ("roles: any lowest support is a floor", "role-floor", "> least_height", "> 0 * least_height"),
-        ("roles: what is high is a leg", "role-leg", "least_slenderness * width", "0 * least_slenderness * width"),
+        ("roles: what is high is a leg", "role-leg", "height >= least_slenderness * width", "true"),
         ("roles: a leg ends at the board", "role-hidden", "is_over_box(x + share * (eye[0] - x), y + share * (eye[1] - y))", "false"),
         ("roles: all below a board is hidden", "role-hidden", "is_over_box(x + share * (eye[0] - x), y + share * (eye[1] - y))", "true"),
         ("standing: on any support that is reached", "standing-nearest", "away >= nearest[segment.label]", "false"),

@@ -116,7 +116,7 @@ inline constexpr double kMostBehind = 0.01;
 bool bounds_the_view(const Plane& plane, const CloudView& cloud);
 
 /// The least cosine of the angle between planes that count as parallel.
-inline constexpr double kLeastOfParallel = 0.98;
+inline constexpr double kLeastOfParallel = 0.99;
 
 /// The role of a plane that bounds the view: a wall if it is steep, and a ceiling if it faces the
 /// support. Empty for any other plane.

@@ -58,24 +58,27 @@ std::vector<Index> points_off(const std::vector<PlaneSearch>& planes, const Clou
   return off;
 }
 
-/// The number of points of things that are just in front of a plane.
-std::size_t count_contacts(const Plane& plane, const SlantedMargin& margin, const Sample& things) {
+/// How many points of things are in a layer just in front of a plane, per metre of its thickness.
+/// The layer is as thick as the noise of the plane. A wall that is seen from the front has a
+/// thicker layer than a floor that is seen at a slant, and more points of things far away are in
+/// it.
+double contacts_with(const Plane& plane, const SlantedMargin& margin, const Sample& things) {
   constexpr double least_reach = 0.03;  // metres
-  std::size_t count = 0;
+  double contacts = 0;
   for (std::size_t i = 0; i < things.size(); ++i) {
     const double height = plane.signed_distance(things.x[i], things.y[i], things.z[i]);
     const double least = kMarginsOfPlane * margin(things[i]);
-    count += height > least && height < least + std::max(least, least_reach) ? 1U : 0U;
+    const double reach = std::max(least, least_reach);
+    if (height > least && height < least + reach) contacts += 1 / reach;
   }
-  return count;
+  return contacts;
 }
 
-/// For each plane, the number of points of things that are just in front of it, or of the largest
-/// plane that is parallel to it. A table far away may hold too few points to be found by itself,
-/// but its direction is known from the floor. @param things a sample of the points off all planes.
-std::vector<std::size_t> contacts_of(const std::vector<PlaneSearch>& planes,
-                                     const PlaneMargin& margin, const Vec3& viewpoint,
-                                     Sample things) {
+/// For each plane, its contacts and the contacts of the largest plane that is parallel to it. A
+/// table far away may hold too few points to be found by itself, but its direction is known from
+/// the floor. @param things a sample of the points off all planes.
+std::vector<double> contacts_of(const std::vector<PlaneSearch>& planes, const PlaneMargin& margin,
+                                const Vec3& viewpoint, Sample things) {
   std::vector<std::vector<Plane>> touched;
   for (const PlaneSearch& search : planes) {
     touched.push_back({*search.plane});
@@ -87,21 +90,22 @@ std::vector<std::size_t> contacts_of(const std::vector<PlaneSearch>& planes,
     touched.back().push_back(*parallel.plane);
     things = points_off(*parallel.plane, kMarginsOfPlane, things);
   }
-  std::vector<std::size_t> contacts(planes.size());
+  std::vector<double> contacts(planes.size());
   for (std::size_t k = 0; k < planes.size(); ++k)
     for (const Plane& plane : touched[k])
-      contacts[k] += count_contacts(plane, SlantedMargin(margin, plane, viewpoint), things);
+      contacts[k] += contacts_with(plane, SlantedMargin(margin, plane, viewpoint), things);
   return contacts;
 }
 
 /// The plane on which most things stand. The contacts of planes that are parallel are added up,
 /// because the things on a shelf stand on several boards.
 std::size_t most_touched(const std::vector<PlaneSearch>& planes,
-                         const std::vector<std::size_t>& contacts) {
+                         const std::vector<double>& contacts) {
   constexpr double least_share_of_support = 0.05;
-  std::size_t best = 0, most = 0;
+  std::size_t best = 0;
+  double most = 0;
   for (std::size_t i = 0; i < planes.size(); ++i) {
-    std::size_t count = 0;
+    double count = 0;
     for (std::size_t k = 0; k < planes.size(); ++k)
       if (cosine_between(*planes[i].plane, *planes[k].plane) >= kLeastOfParallel)
         count += contacts[k];

@@ -109,10 +109,11 @@ bool reaches(const Segment& segment, const SceneSurface& support, const Vec3& vi
   return is_over_box(x + share * (eye[0] - x), y + share * (eye[1] - y));
 }
 
-/// Sets the role of the legs of tables: slender segments under a support, where there is a floor.
-/// They end at its lower side, or where the support begins to hide them.
+/// Sets the role of the legs of tables: narrow, slender segments under a support, where there is a
+/// floor. They end at its lower side, or where the support begins to hide them.
 void find_legs(const SceneTree& scene, const std::vector<double>& tops, SceneCut& cut) {
-  constexpr double least_slenderness = 3;
+  // The noise of depth may tear a leg into pieces.
+  constexpr double least_slenderness = 2, most_width = 0.15;
   if (std::ranges::find(scene.surfaces, Role::floor, &SceneSurface::role) == scene.surfaces.end())
     return;
   for (const SceneSurface& surface : scene.surfaces) {
@@ -122,7 +123,7 @@ void find_legs(const SceneTree& scene, const std::vector<double>& tops, SceneCut
       const double below =
           height_of(surface.plane, scene.surfaces.front().plane, segment) - tops[segment.label];
       // mutant: role-leg
-      if (below >= 0 && height >= least_slenderness * width &&
+      if (below >= 0 && width <= most_width && height >= least_slenderness * width &&
           reaches(segment, surface, scene.viewpoint, below - 2 * scene.voxel))
         segment.role = Role::support;
     }

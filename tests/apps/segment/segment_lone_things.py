@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: MIT
-"""Checks that ph-segment finds things where no table is the largest plane, and low things on a
-table.
+"""Checks that ph-segment finds things where no table is the largest plane, in rooms, and low things
+on a table.
 
 segment_lone_things.py PH_SEGMENT
 
-bench/scenes/lone_things.py makes the scenes.
+bench/scenes/lone_things.py and frames.py make the scenes.
 """
 import json
 import pathlib
@@ -29,11 +29,11 @@ import segmentation_metrics as metrics  # noqa: E402
 from lone_things import CASES, can, frames_of, look_at, scene_of  # noqa: E402
 
 
-def run(scene, folder):
+def run(scene, folder, *options):
     """The labels of objects, the summary and the messages of ph-segment for a frame."""
     cloud, labels, summary = (folder / name for name in ("c.pcd", "l.npy", "s.json"))
     point_clouds.write_scene(cloud, scene)
-    command = [PROGRAM, cloud, "--no-check", "--labels", labels, "--json", summary]
+    command = [PROGRAM, cloud, "--no-check", "--labels", labels, "--json", summary, *options]
     done = subprocess.run(command, check=True, capture_output=True, text=True)
     found = json.loads(summary.read_text())
     return score.of_objects(numpy.load(labels).ravel(), found), found, done.stderr
@@ -64,6 +64,24 @@ class LoneThings(unittest.TestCase):
                     if not summary["plane"]["found"]:
                         self.assertIn(why, messages)
             print(f"{name}: F from {min(scores):.3f} to {max(scores):.3f}")
+
+    def test_rooms(self):
+        """In these rooms, more points of things are just in front of a wall than of the floor."""
+        for seed in (600, 804, 1013, 1015):
+            with self.subTest(seed=seed):
+                scene, _ = frames.frame("room", seed)
+                labels, summary, _ = run(scene, self.folder, "--max-range", "6")
+                self.assertGreaterEqual(metrics.score(scene.truth, labels, False, False).f, 0.8)
+                roles = {surface["role"] for surface in summary["surfaces"]}
+                self.assertLessEqual({"floor", "support", "wall"}, roles)
+
+    def test_the_edge_that_was_chosen_may_be_given(self):
+        scene, _ = frames.frame("room", 1008)
+        labels, summary, _ = run(scene, self.folder, "--max-range", "6")
+        voxel = summary["voxel"]
+        self.assertGreater(voxel, 0.01)
+        again, _, _ = run(scene, self.folder, "--max-range", "6", "--voxel", repr(voxel))
+        numpy.testing.assert_array_equal(again, labels)
 
     def test_an_empty_result_has_a_reason(self):
         empty = scene_of(table=True)
