@@ -39,12 +39,11 @@ bool is_c_contiguous(const py::buffer_info& array) {
   return true;
 }
 
+const std::vector<Index> kNoIds;
+
 }  // namespace
 
-const std::vector<Index>& Recipe::vertex_ids() const {
-  static const std::vector<Index> none;
-  return none;
-}
+const std::vector<Index>& Recipe::vertex_ids() const { return kNoIds; }
 
 RipsRecipe::RipsRecipe(std::shared_ptr<const MetricSpace> space, RipsOptions options,
                        std::vector<Index> ids)

@@ -12,6 +12,7 @@
 #include <string_view>
 
 #include "ph/detail/core/lower_case.hpp"
+#include "ph/detail/core/on_first_use.hpp"
 
 namespace ph {
 namespace {
@@ -71,8 +72,8 @@ bool is_zero(std::string_view number) {
 
 // Returns the C locale, because the calling program may have set a locale with a decimal comma.
 locale_t c_locale() {
-  static const locale_t c = newlocale(LC_ALL_MASK, "C", nullptr);
-  return c;
+  static constinit detail::OnFirstUse c([] { return newlocale(LC_ALL_MASK, "C", nullptr); });
+  return *c;
 }
 double strtod_in_c(const char* text, double) { return strtod_l(text, nullptr, c_locale()); }
 float strtod_in_c(const char* text, float) { return strtof_l(text, nullptr, c_locale()); }

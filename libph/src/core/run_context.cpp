@@ -10,6 +10,7 @@
 #include "libph/src/core/system/pages.hpp"
 #include "ph/detail/core/format_size.hpp"
 #include "ph/detail/core/machine_memory.hpp"
+#include "ph/detail/core/on_first_use.hpp"
 #include "ph/error.hpp"
 
 namespace ph {
@@ -74,9 +75,8 @@ void* MemoryBudget::do_allocate(std::size_t bytes, std::size_t alignment) {
   const std::size_t taken = size_of_block(bytes, alignment);
   add(taken);
   try {
-    return is_large(bytes, alignment)
-               ? map_pages(bytes)
-               : std::pmr::new_delete_resource()->allocate(bytes, alignment);
+    return is_large(bytes, alignment) ? map_pages(bytes)
+                                      : std::pmr::new_delete_resource()->allocate(bytes, alignment);
   } catch (...) {
     subtract(taken);
     throw;
@@ -108,10 +108,11 @@ void RunContext::report(const Progress& progress) const {
 
 const RunContext& default_context() {
   // Without a limit, a lack of memory would end in std::bad_alloc or in the death of the process.
-  static const struct Limited : RunContext {
+  struct Limited : RunContext {
     Limited() { memory.set_limit(machine_memory()); }
-  } context;
-  return context;
+  };
+  static constinit detail::OnFirstUse context([] { return Limited(); });
+  return *context;
 }
 
 Ticker::Ticker(const RunContext& context, std::string_view stage, std::uint64_t total)

@@ -8,12 +8,12 @@ namespace ph {
 
 template <>
 std::vector<detail::EngineFor<Alpha>>& detail::engines<Alpha>() {
-  static auto list = [] {
+  static constinit OnFirstUse list([] {
     auto engines = engines_of_list<Alpha>(static_cast<GenericEngines*>(nullptr));
     engines.push_back(engine_for<AlphaEngine, Alpha>());
     return engines;
-  }();
-  return list;
+  });
+  return *list;
 }
 
 }  // namespace ph

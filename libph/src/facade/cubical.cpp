@@ -5,8 +5,8 @@ namespace ph::detail {
 
 template <>
 std::vector<EngineFor<Cubical>>& engines<Cubical>() {
-  static auto list = all_engines<Cubical>();
-  return list;
+  static constinit OnFirstUse list([] { return all_engines<Cubical>(); });
+  return *list;
 }
 
 }  // namespace ph::detail

@@ -24,8 +24,9 @@ std::vector<EngineFacts> facts_of_list(std::tuple<E...>*) {
 }  // namespace
 
 std::vector<EngineFacts>& detail::engine_facts() {
-  static auto facts = facts_of_list(static_cast<AllEngines*>(nullptr));
-  return facts;
+  static constinit OnFirstUse facts(
+      [] { return facts_of_list(static_cast<AllEngines*>(nullptr)); });
+  return *facts;
 }
 
 void detail::add_facts(const EngineFacts& facts) {

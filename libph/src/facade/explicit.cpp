@@ -5,13 +5,13 @@ namespace ph::detail {
 
 template <>
 std::vector<EngineFor<ExplicitComplex>>& engines<ExplicitComplex>() {
-  static auto list = all_engines<ExplicitComplex>();
-  return list;
+  static constinit OnFirstUse list([] { return all_engines<ExplicitComplex>(); });
+  return *list;
 }
 template <>
 std::vector<EngineFor<FilteredGraph>>& engines<FilteredGraph>() {
-  static auto list = all_engines<FilteredGraph>();
-  return list;
+  static constinit OnFirstUse list([] { return all_engines<FilteredGraph>(); });
+  return *list;
 }
 
 }  // namespace ph::detail

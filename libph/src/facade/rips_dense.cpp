@@ -6,8 +6,9 @@ namespace ph::detail {
 template <>
 std::vector<EngineFor<RipsFiltration<RipsLayout::dense, 1>>>&
 engines<RipsFiltration<RipsLayout::dense, 1>>() {
-  static auto list = all_engines<RipsFiltration<RipsLayout::dense, 1>>();
-  return list;
+  static constinit OnFirstUse list(
+      [] { return all_engines<RipsFiltration<RipsLayout::dense, 1>>(); });
+  return *list;
 }
 
 }  // namespace ph::detail

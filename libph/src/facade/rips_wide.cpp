@@ -6,8 +6,9 @@ namespace ph::detail {
 template <>
 std::vector<EngineFor<RipsFiltration<RipsLayout::any, 4>>>&
 engines<RipsFiltration<RipsLayout::any, 4>>() {
-  static auto list = all_engines<RipsFiltration<RipsLayout::any, 4>>();
-  return list;
+  static constinit OnFirstUse list(
+      [] { return all_engines<RipsFiltration<RipsLayout::any, 4>>(); });
+  return *list;
 }
 
 }  // namespace ph::detail

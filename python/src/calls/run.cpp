@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "ph/detail/core/machine_memory.hpp"
+#include "ph/detail/core/on_first_use.hpp"
 #include "python/src/calls/bindings.hpp"
 
 namespace ph::python {
@@ -30,8 +31,8 @@ constexpr std::chrono::milliseconds kLook(20);
 /// already uses, for example for the arrays of the caller.
 std::size_t memory_left() {
   // This number is slow to determine.
-  static const std::size_t all = machine_memory();
-  return all - std::min<std::size_t>(all, status_bytes("RssAnon:").value_or(0));
+  static constinit detail::OnFirstUse all([] { return machine_memory(); });
+  return *all - std::min<std::size_t>(*all, status_bytes("RssAnon:").value_or(0));
 }
 
 std::shared_ptr<RunContext> new_context(const RunOptions& options, bool is_short) {

@@ -32,7 +32,7 @@ std::size_t round_up(std::size_t bytes, std::size_t page) {
 std::size_t mapped_size(std::size_t bytes) {
   // The size is rounded up to complete huge pages only if this adds at most a fifth of `bytes`.
   constexpr std::size_t nearly = 5;
-  static const auto page = static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+  const auto page = static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
   const std::size_t huge = round_up(bytes, kHugePage);
   return huge - bytes > bytes / nearly ? round_up(bytes, page) : huge;
 }

@@ -2,7 +2,10 @@
 #include "libph/src/cubical/grid/star_tables.hpp"
 
 #include <algorithm>
+#include <array>
 #include <numeric>
+
+#include "ph/detail/core/on_first_use.hpp"
 
 namespace ph::cubical {
 namespace {
@@ -144,12 +147,13 @@ CubePairs StarTables::pair_cubes(std::uint32_t star) const {
 }
 
 const StarTables& star_tables(unsigned wrapped) {
-  static const StarTables plain(0);
-  if (wrapped == 0) return plain;
-  static const std::array<StarTables, 7> others{StarTables(1), StarTables(2), StarTables(3),
-                                                StarTables(4), StarTables(5), StarTables(6),
-                                                StarTables(7)};
-  return others[wrapped - 1];
+  static constinit detail::OnFirstUse plain([] { return StarTables(0); });
+  if (wrapped == 0) return *plain;
+  static constinit detail::OnFirstUse others([] {
+    return std::array{StarTables(1), StarTables(2), StarTables(3), StarTables(4),
+                      StarTables(5), StarTables(6), StarTables(7)};
+  });
+  return (*others)[wrapped - 1];
 }
 
 }  // namespace ph::cubical

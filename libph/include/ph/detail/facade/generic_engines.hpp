@@ -6,6 +6,7 @@
 
 #include "ph/detail/components/union_find.hpp"
 #include "ph/detail/core/field.hpp"
+#include "ph/detail/core/on_first_use.hpp"
 #include "ph/detail/facade/engine_list.hpp"
 #include "ph/detail/reduction/cohomology.hpp"
 #include "ph/detail/reduction/standard.hpp"
@@ -72,8 +73,9 @@ using GenericEngines = std::tuple<StandardEngine, TwistEngine, CohomologyEngine,
 
 template <Filtration F>
 std::vector<EngineFor<F>>& engines() {
-  static auto list = engines_of_list<F>(static_cast<GenericEngines*>(nullptr));
-  return list;
+  static constinit OnFirstUse list(
+      [] { return engines_of_list<F>(static_cast<GenericEngines*>(nullptr)); });
+  return *list;
 }
 
 }  // namespace ph::detail
