@@ -6,14 +6,15 @@
     programs_in_pages.py run PAGE NUMBER PROGRAM     runs PROGRAM, compiled from one of the files
 
 A program is a block ```cpp with a main function. The block ```text after it is its expected output.
-A program runs in the root of the repository.
+A program runs in a folder that is empty except for a link to `examples`.
 """
 import re
 import subprocess
 import sys
+import tempfile
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
+EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
 BLOCK = re.compile(r"^```(cpp|text)\n(.*?)^```", re.MULTILINE | re.DOTALL)
 
 
@@ -39,7 +40,9 @@ def write(page, folder, count):
 
 def run(page, number, program):
     expected = programs_of(page)[int(number) - 1][1]
-    ended = subprocess.run([program], cwd=ROOT, capture_output=True, text=True, timeout=60)
+    with tempfile.TemporaryDirectory() as folder:
+        Path(folder, "examples").symlink_to(EXAMPLES)
+        ended = subprocess.run([program], cwd=folder, capture_output=True, text=True, timeout=60)
     if ended.returncode != 0 or ended.stdout != expected:
         sys.exit(f"{page}: program {number}: exit code {ended.returncode}, found:\n{ended.stdout}"
                  f"{ended.stderr}expected:\n{expected}")
