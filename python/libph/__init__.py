@@ -67,7 +67,9 @@ _NAMES = {
     "_vectors._kernels": "diagram_kernels",
 }
 _MODULES = {name: module for module, names in _NAMES.items() for name in names.split()}
-_PACKAGES = ("compat", "gradients", "sklearn", "torch")
+# `from . import NAME` also finds these modules through `__getattr__`, which loads them in a way that
+# permits forks.
+_PACKAGES = ("_hints", "_report", "compat", "gradients", "sklearn", "torch")
 __all__ = sorted([*_MODULES, "__version__", "gradients"])
 
 

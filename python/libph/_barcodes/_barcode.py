@@ -433,8 +433,8 @@ class Barcode(Cells, Summaries, Sequence[Bar]):
         DataError
             If the bars do not belong to X.
         """
-        from .._report import report_of_bars
-        return report_of_bars(self, X, title, options)
+        from .. import _report
+        return _report.report_of_bars(self, X, title, options)
 
     def __repr__(self) -> str:
         return _output.in_words(self)

@@ -214,3 +214,25 @@ def test_forks_while_a_thread_loads():
                 getattr(ph, name)
     """
     assert hung("[getattr(ph, name) for name in ph.__all__]", thread, 20) == "0\n"
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="this system cannot fork")
+@pytest.mark.parametrize("repeat", range(5))
+def test_forks_while_a_thread_makes_mistakes(repeat):
+    """The first message with a hint imports the tables of hints. A fork during this import is
+    likely, because the threads take turns often."""
+    thread = """
+        def mistake():
+            try:
+                ph.rips(X, maxdim=2)
+            except TypeError:
+                pass
+
+        def work():
+            while not end:
+                mistake()
+
+        ph.rips(X)
+        sys.setswitchinterval(1e-6)
+    """
+    assert hung("mistake()", thread, 20) == "0\n"
