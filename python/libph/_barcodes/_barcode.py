@@ -98,7 +98,7 @@ class Barcode(Cells, Summaries, Sequence[Bar]):
             ``[tree.persistence_intervals_in_dimension(d) for d in (0, 1)]`` of GUDHI.
             "dim-birth-death" and "giotto": an array (n, 3) of rows dim, birth, death or birth,
             death, dim. "gudhi": a list of (dim, (birth, death)), as `persistence()` of GUDHI.
-            Default: the layout is recognised. Rows that fit both layouts of (n, 3) are refused.
+            Default: the layout that `dgms` has. Rows that fit both layouts of (n, 3) are refused.
 
         Returns
         -------
@@ -107,7 +107,7 @@ class Barcode(Cells, Summaries, Sequence[Bar]):
         Raises
         ------
         UsageError
-            If the layout cannot be recognised.
+            If the layout is not recognised, or `dgms` does not have it.
         DataError
             If a number is NaN, a bar dies before its birth, or a dimension is not a whole number.
 

@@ -2,6 +2,7 @@
 """Barcodes in the layouts of other programs, and from them."""
 from __future__ import annotations
 
+import numbers
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
@@ -42,9 +43,10 @@ def from_layout(dgms: Any, layout: str | None
     layout = _options.choice("layout", layout, [None, *LAYOUTS]) or _layout_of(dgms)
     least = 0
     if layout == "ripser":
-        (dims, births, deaths), least = _by_dimension(dgms), len(dgms) - 1
+        each = _options.several("dgms", dgms, "one array for each dimension")
+        (dims, births, deaths), least = _by_dimension(each), len(each) - 1
     elif layout == "gudhi":
-        dims, births, deaths = _columns([(dim, *bar) for dim, bar in dgms])
+        dims, births, deaths = _of_pairs(dgms)
     else:
         dims, births, deaths = _columns(dgms)
         if layout == "giotto":
@@ -56,8 +58,8 @@ def from_layout(dgms: Any, layout: str | None
 
 def _layout_of(dgms: Any) -> str:
     if isinstance(dgms, Mapping):
-        raise UsageError(f"dgms: found {type(dgms).__name__}, expected its arrays; of ripser.py, "
-                         "result['dgms']")
+        raise UsageError(f"dgms: found {type(dgms).__name__}, expected the arrays in it, such as "
+                         "result['dgms'] of ripser.py")
     if isinstance(dgms, (list, tuple)):
         if dgms and all(map(_is_pair, dgms)):
             return "gudhi"
@@ -65,8 +67,8 @@ def _layout_of(dgms: Any) -> str:
             return "ripser"
     array = _arrays.as_array(dgms, "dgms")
     if array.ndim == 3 and array.shape[2] == 3:
-        raise UsageError(f"dgms: found the diagrams of {array.shape[0]} inputs, expected the "
-                         "diagrams of one; dgms[0] has those of the first input")
+        raise UsageError(f"dgms: found an array of shape {array.shape}, with the bars of each of "
+                         "several inputs, expected the bars of one input, such as dgms[0]")
     if array.ndim == 2 and array.shape[1] == 2:
         raise UsageError("dgms: found one array of rows birth, death, expected one array for each "
                          "dimension; a list [dgm] makes them bars of H0")
@@ -86,7 +88,9 @@ def _layout_of(dgms: Any) -> str:
 
 def _is_pair(item: Any) -> bool:
     """True for dim, (birth, death)."""
-    return isinstance(item, (list, tuple)) and [np.ndim(part) for part in item] == [0, 1]
+    return (isinstance(item, (list, tuple)) and len(item) == 2
+            and isinstance(item[0], numbers.Real)
+            and isinstance(item[1], (list, tuple, np.ndarray)) and len(item[1]) == 2)
 
 
 def _is_diagram(item: Any) -> bool:
@@ -105,9 +109,18 @@ def _columns(rows: Any) -> _Columns:
     return array[:, 0].copy(), array[:, 1].copy(), array[:, 2].copy()
 
 
-def _by_dimension(dgms: Any) -> _Columns:
+def _of_pairs(pairs: Any) -> _Columns:
+    rows = []
+    for i, pair in enumerate(_options.several("dgms", pairs, "a list of (dim, (birth, death))")):
+        if not _is_pair(pair):
+            raise _options.refuse(f"dgms[{i}]", pair, "dim, (birth, death)")
+        rows.append((pair[0], *pair[1]))
+    return _columns(rows)
+
+
+def _by_dimension(dgms: list[Any]) -> _Columns:
     found = [np.empty((0, 3))]
-    for dim, dgm in enumerate(_options.several("dgms", dgms, "one array for each dimension")):
+    for dim, dgm in enumerate(dgms):
         name = f"dgms[{dim}]"
         array = _arrays.as_float64(_arrays.as_array(dgm, name), name)
         if not array.size:
