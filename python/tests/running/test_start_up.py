@@ -16,14 +16,15 @@ from workloads import run_python
 ONE_CALL = "import numpy as np, libph as ph; ph.rips(np.arange(20.0).reshape(10, 2)**2)"
 
 
-def cpu_seconds(code):
-    """The CPU time of a process that runs this code."""
+def cpu_seconds(code, cache):
+    """The CPU time of a process that runs this code, with bytecode in the folder `cache`."""
     def used():
         usage = resource.getrusage(resource.RUSAGE_CHILDREN)
         return usage.ru_utime + usage.ru_stime
 
     start = used()
-    subprocess.run([sys.executable, "-c", code], check=True)
+    subprocess.run([sys.executable, "-c", code], check=True, env={
+        **os.environ, "PYTHONDONTWRITEBYTECODE": "", "PYTHONPYCACHEPREFIX": str(cache)})
     return used() - start
 
 
@@ -42,11 +43,12 @@ def test_a_process_with_one_call_imports_little():
         "difflib", "joblib", "matplotlib", "pandas", "scipy", "sklearn", "torch", "tqdm"}
 
 
-def test_a_process_with_one_call_costs_little_more_than_numpy():
-    """The factor is 1.3 on an idle machine and was up to 1.7 on a busy one."""
-    alone, with_call = zip(*[(cpu_seconds("import numpy"), cpu_seconds(ONE_CALL))
+def test_a_process_with_one_call_costs_little_more_than_numpy(tmp_path):
+    """The factor is 1.3. The least of several times is steady on a busy machine as well. The first
+    processes also compile the modules."""
+    alone, with_call = zip(*[(cpu_seconds("import numpy", tmp_path), cpu_seconds(ONE_CALL, tmp_path))
                              for _ in range(9)])
-    assert min(with_call) < 2 * min(alone)
+    assert min(with_call) < 1.6 * min(alone)
 
 
 # ---- calls
