@@ -96,9 +96,30 @@ def test_spatial_images():
     bars = ph.cubical(image, representatives="voxels")
     assert np.array_equal(bars.affine, AFFINE) and np.array_equal(bars.labels(0).affine, AFFINE)
     assert ph.cubical(VOLUME).affine is None and hash(bars.meta)
-    for wrong in (np.eye(3), np.full((4, 4), np.nan), np.ones((4, 4))):
-        with pytest.raises(ph.UsageError, match="affine: found an array of shape"):
+    for wrong, message in ((np.eye(3), r"shape \(3, 3\), expected \(4, 4\)"),
+                           (np.full((4, 4), np.nan), "found .*nan, .*expected finite numbers"),
+                           (np.ones((4, 4)), "the last row 0, 0, 0, 1"), ("x", "found str"),
+                           ([[1, 2], [3]], "row 1: found 1 numbers, expected 2"),
+                           (np.full((4, 4), "x"), "found text, expected numbers")):
+        with pytest.raises(ph.Error, match=f"affine: .*{message}"):
             ph.SpatialImage(VOLUME, wrong)
+
+
+def test_results_of_spatial_images():
+    image = ph.SpatialImage(VOLUME.copy(), AFFINE)
+    assert type(image.max()) is type(image.mean()) is np.float64
+    assert type((image > 0.5).any()) is np.bool_
+    assert (image.sum(axis=0) - VOLUME.sum(axis=0) == 0).all()
+    image += 1
+    assert np.array_equal(image, VOLUME + 1) and np.array_equal(image.affine, AFFINE)
+
+
+def test_masked_voxels_are_nan(tmp_path):
+    masked = np.ma.masked_less((9 * VOLUME).astype(np.int16), 4)
+    expected = np.where(masked.mask, np.nan, masked.data)
+    assert np.array_equal(ph.SpatialImage(masked), expected, equal_nan=True)
+    ph.write_nifti(tmp_path / "v.nii", masked)
+    assert np.array_equal(ph.read(tmp_path / "v.nii", nan="drop"), expected, equal_nan=True)
 
 
 class OfNibabel:
@@ -130,8 +151,10 @@ def test_nifti_there_and_back(dtype, tmp_path):
 
 
 def test_nifti_that_is_refused(tmp_path):
-    for image, message in ((VOLUME.astype(complex), "complex128"), (np.zeros((3, 0)), r"\(3, 0\)"),
-                           (np.zeros((2,) * 8), "1 to 7 axes"), (np.zeros((40000,)), "40000")):
-        with pytest.raises(ph.UsageError, match=message):
+    for image, message in ((VOLUME.astype(complex), "complex numbers"), (np.zeros((3, 0)), r"\(3, 0\)"),
+                           (np.zeros((2,) * 8), "1 to 7 axes"), (np.zeros((40000,)), "40000"),
+                           (VOLUME.astype("f2"), "float16"), (OfNibabel(), "Cannot convert"),
+                           (None, "found NoneType, expected an array")):
+        with pytest.raises(ph.Error, match=f"image: .*{message}"):
             ph.write_nifti(tmp_path / "v.nii", image)
     assert not list(tmp_path.iterdir())
