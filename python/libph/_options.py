@@ -135,6 +135,12 @@ def several(name: str, values: Any, what: str) -> list[Any]:
     return list(values)
 
 
+def one_or_several(name: str, values: Any, least: int) -> list[int]:
+    """A whole number from `least`, or an iterable of such numbers, as a list."""
+    is_one = isinstance(values, str) or not isinstance(values, Iterable)
+    return [whole(name, value, least) for value in ([values] if is_one else values)]
+
+
 def axes(name: str, value: Any, count: int) -> list[bool]:
     """Some axes of an image: their numbers, a bool for each axis, or True or "all" for all.
 

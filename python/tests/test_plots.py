@@ -58,6 +58,9 @@ def test_plot_of_one_dimension(kind):
     for dim, labels in ((1, ["H1"]), ([0, 1], ["H0", "H1"]), (None, ["H0", "H1"])):
         ax = bars.plot(kind, ax=Figure().add_subplot(), dims=dim)
         assert [text.get_text() for text in ax.get_legend().get_texts()] == labels
+    for wrong in ("1", [0, -1]):
+        with pytest.raises(ph.UsageError, match="dims: found '?-?1'?, expected a whole number"):
+            bars.plot(kind, dims=wrong)
     with pytest.raises(ph.UsageError, match="dim: .*did you mean 'dims'"):
         bars.plot(kind, ax=Figure().add_subplot(), dim=1)
 

@@ -314,8 +314,7 @@ class Barcode(Cells, Summaries, Sequence[Bar]):
         dims, births, deaths = self._arrays
         keep = np.ones(len(self), dtype=bool)
         if dim is not None:
-            wanted = list(dim) if isinstance(dim, Iterable) and not isinstance(dim, str) else [dim]
-            keep &= np.isin(dims, [_options.whole("dim", d, 0) for d in wanted])
+            keep &= np.isin(dims, _options.one_or_several("dim", dim, 0))
         if min_persistence is not None:
             least = _options.real("min_persistence", min_persistence)
             keep &= _output.lengths(births, deaths) > least

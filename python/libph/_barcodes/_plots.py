@@ -24,7 +24,7 @@ def plot(bars: Barcode, kind: Any, ax: Axes | None, dims: Any, noise: float | No
         if hint:
             raise UsageError(f"{name}: plot has no such keyword{hint}")
     if dims is not None:
-        bars = bars.filter(dim=dims)
+        bars = bars.filter(dim=_options.one_or_several("dims", dims, 0))
     draw = {"diagram": _diagram, "barcode": _lines, "betti": _betti}[
         _options.choice("kind", kind, ["diagram", "barcode", "betti"])]
     if ax is None:
