@@ -41,6 +41,11 @@ def place_of(index: Sequence[int]) -> str:
     return "index (" + ", ".join(map(str, index)) + ")"
 
 
+def first_of(wrong: NDArray[np.bool_]) -> tuple[int, ...]:
+    """The index of the first true entry."""
+    return tuple(map(int, np.unravel_index(int(np.argmax(wrong)), wrong.shape)))
+
+
 def is_sparse(data: Any) -> bool:
     """True for a matrix or array of scipy.sparse."""
     return hasattr(data, "tocoo") and hasattr(data, "nnz")
@@ -49,56 +54,6 @@ def is_sparse(data: Any) -> bool:
 def is_masked(data: Any) -> bool:
     """True for a masked array. There is none as long as nothing has imported numpy.ma."""
     return "numpy.ma" in sys.modules and isinstance(data, np.ma.MaskedArray)
-
-
-def sparse_entries(matrix: Any, name: str = "X"
-                   ) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.float64]]:
-    """Row, column and value of each entry that a sparse matrix stores, as in `coordinates`."""
-    coo = coordinates(matrix, name)
-    return (coo.row.astype(np.int64), coo.col.astype(np.int64), as_float64(coo.data, name))
-
-
-def coordinates(matrix: Any, name: str, copy: bool = False) -> Any:
-    """The matrix in COO format, with the zeros that it stores as entries.
-
-    Raises
-    ------
-    DataError
-        If entries are not real numbers, or if a BSR or DIA matrix has a zero off its main diagonal:
-        such a zero may be an entry, or fill a block or a diagonal.
-    """
-    coo = matrix.tocoo(copy=copy)
-    if coo.data.dtype.kind not in "biuf":
-        raise DataError(f"{name}: found entries of type {coo.data.dtype}, expected real numbers")
-    kind = getattr(matrix, "format", None)
-    if kind == "bsr":
-        place = _zero_of_blocks(coo)
-        what, way_out = "blocks", (".tocsr() reads such zeros as entries; .eliminate_zeros() after "
-                                   "it removes them")
-    else:
-        place = _zero_of_diagonals(matrix) if kind == "dia" else None
-        what, way_out = "diagonals", (".tocsr() removes such zeros; a CSR matrix made from rows, "
-                                      "columns and values can store them as entries")
-    if place is not None:
-        raise DataError(f"{name}: {place_of(place)}: found 0 in a matrix of format {kind}, which "
-                        f"fills its {what} with zeros, expected none off the main diagonal; {way_out}")
-    return coo
-
-
-def _zero_of_blocks(coo: Any) -> tuple[int, int] | None:
-    zeros = np.flatnonzero((coo.data == 0) & (coo.row != coo.col))
-    return (int(coo.row[zeros[0]]), int(coo.col[zeros[0]])) if len(zeros) else None
-
-
-def _zero_of_diagonals(matrix: Any) -> tuple[int, int] | None:
-    rows, columns = matrix.shape
-    for offset, diagonal in zip(matrix.offsets.tolist(), matrix.data):
-        first, end = max(0, offset), max(0, min(columns, rows + offset))
-        zeros = np.flatnonzero(diagonal[first:end] == 0)
-        if offset and len(zeros):
-            column = first + int(zeros[0])
-            return column - offset, column
-    return None
 
 
 def as_array(data: Any, name: str) -> NDArray[Any]:
@@ -224,16 +179,15 @@ def as_float64(array: NDArray[Any], name: str, mask: NDArray[np.bool_] | None = 
         if mask is not None:
             beyond &= ~mask
         if beyond.any():
-            index = np.unravel_index(int(np.argmax(beyond)), array.shape)
-            raise _too_large(name, [int(i) for i in index], array[index])
+            index = first_of(beyond)
+            raise _too_large(name, index, array[index])
     with np.errstate(over="ignore"):
         numbers = _copied(array, np.float64, name)
     if kind == "f" and size > 8:
         lost = np.isinf(numbers) & ~np.isinf(array)
         if lost.any():
-            index = np.unravel_index(int(np.argmax(lost)), array.shape)
-            raise DataError(f"{name}: {place_of([int(i) for i in index])}: found a number beyond "
-                            "the range of float64")
+            raise DataError(f"{name}: {place_of(first_of(lost))}: found a number beyond the range "
+                            "of float64")
     if mask is not None:
         numbers[mask] = np.nan
     return numbers
@@ -247,11 +201,16 @@ def require_room(needed: int, memory_limit: int | None, what: str) -> None:
                                "data, or a larger memory_limit")
 
 
+def _exceeds_memory(needed: int) -> bool:
+    """True if so many bytes do not fit into memory. They are refused before they are used, because
+    the system promises more memory than it has."""
+    return needed > _LARGE and needed > _core.memory_left()
+
+
 def new_array(shape: int | tuple[int, ...]) -> NDArray[np.float64]:
-    """A new array of float64 to be filled in. An array that does not fit into memory is refused in
-    advance, because the system promises more memory than it has."""
+    """A new array of float64 to be filled in."""
     needed = math.prod(shape if isinstance(shape, tuple) else (shape,)) * 8
-    if needed > _LARGE and needed > _core.memory_left():
+    if _exceeds_memory(needed):
         raise MemoryLimitError(f"found a result of shape {shape}, whose {needed} bytes would "
                                "exceed the available memory")
     array: NDArray[np.float64] = np.empty(shape)
@@ -264,10 +223,8 @@ def side_by_side(array: NDArray[Any], name: str) -> NDArray[Any]:
 
 
 def _copied(array: NDArray[Any], dtype: DTypeLike, name: str) -> NDArray[Any]:
-    """A copy of another type, in C order. A copy that does not fit into memory is refused in
-    advance, because the system promises more memory than it has."""
-    needed = array.size * np.dtype(dtype).itemsize
-    if needed > _LARGE and needed > _core.memory_left():
+    """A copy of another type, in C order."""
+    if _exceeds_memory(array.size * np.dtype(dtype).itemsize):
         raise MemoryLimitError(f"{name}: found {array.size} numbers of type {array.dtype}, whose "
                                f"copy of type {np.dtype(dtype)} would exceed the available memory")
     return array.astype(dtype, order="C")
@@ -407,10 +364,9 @@ def as_integers(data: Any, name: str) -> NDArray[np.int64]:
     else:
         raise DataError(f"{name}: found {array.dtype.name}, expected whole numbers")
     if wrong.any():
-        index = np.unravel_index(int(np.argmax(wrong)), array.shape)
-        raise DataError(f"{name}: {place_of([int(i) for i in index])}: found {array[index]}, "
-                        "expected a whole number, as a float at most 2**53 in absolute value, as "
-                        "an integer below 2**63")
+        index = first_of(wrong)
+        raise DataError(f"{name}: {place_of(index)}: found {array[index]}, expected a whole number, "
+                        "as a float at most 2**53 in absolute value, as an integer below 2**63")
     return np.ascontiguousarray(numbers)
 
 

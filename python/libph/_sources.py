@@ -140,6 +140,57 @@ def _warn_of_a_matrix(points: NDArray[np.float64]) -> None:
                   "distances", UserWarning, stacklevel=_options.user_level())
 
 
+def sparse_entries(matrix: Any, name: str = "X"
+                   ) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.float64]]:
+    """Row, column and value of each entry that a sparse matrix stores, as in `coordinates`."""
+    coo = coordinates(matrix, name)
+    return (coo.row.astype(np.int64), coo.col.astype(np.int64), _arrays.as_float64(coo.data, name))
+
+
+def coordinates(matrix: Any, name: str, copy: bool = False) -> Any:
+    """The matrix in COO format, with the zeros that it stores as entries.
+
+    Raises
+    ------
+    DataError
+        If entries are not real numbers, or if a BSR or DIA matrix has a zero off its main diagonal:
+        such a zero may be an entry, or fill a block or a diagonal.
+    """
+    coo = matrix.tocoo(copy=copy)
+    if coo.data.dtype.kind not in "biuf":
+        raise DataError(f"{name}: found entries of type {coo.data.dtype}, expected real numbers")
+    kind = getattr(matrix, "format", None)
+    if kind == "bsr":
+        place = _zero_of_blocks(coo)
+        what, way_out = "blocks", (".tocsr() reads such zeros as entries; .eliminate_zeros() after "
+                                   "it removes them")
+    else:
+        place = _zero_of_diagonals(matrix) if kind == "dia" else None
+        what, way_out = "diagonals", (".tocsr() removes such zeros; a CSR matrix made from rows, "
+                                      "columns and values can store them as entries")
+    if place is not None:
+        raise DataError(f"{name}: {_arrays.place_of(place)}: found 0 in a matrix of format {kind}, "
+                        f"which fills its {what} with zeros, expected none off the main diagonal; "
+                        f"{way_out}")
+    return coo
+
+
+def _zero_of_blocks(coo: Any) -> tuple[int, int] | None:
+    zeros = np.flatnonzero((coo.data == 0) & (coo.row != coo.col))
+    return (int(coo.row[zeros[0]]), int(coo.col[zeros[0]])) if len(zeros) else None
+
+
+def _zero_of_diagonals(matrix: Any) -> tuple[int, int] | None:
+    rows, columns = matrix.shape
+    for offset, diagonal in zip(matrix.offsets.tolist(), matrix.data):
+        first, end = max(0, offset), max(0, min(columns, rows + offset))
+        zeros = np.flatnonzero(diagonal[first:end] == 0)
+        if offset and len(zeros):
+            column = first + int(zeros[0])
+            return column - offset, column
+    return None
+
+
 def _of_sparse(X: Any, nan: str | None, diagonal: str, symmetrise: str | None,
                memory_limit: int | None) -> Source:
     """Reads both triangles. Stored zeros are distances; pairs that are not stored are never
@@ -148,7 +199,7 @@ def _of_sparse(X: Any, nan: str | None, diagonal: str, symmetrise: str | None,
         raise UsageError(f"X: found a sparse matrix of shape {X.shape}, expected a square one")
     _arrays.require_room(_BYTES_PER_ENTRY * X.nnz, memory_limit, f"the {X.nnz} entries of X")
     # Indices keep their type, which is int32 in most matrices, until the pairs are unique.
-    coo = _arrays.coordinates(X, "X")
+    coo = coordinates(X, "X")
     row, column, values = coo.row, coo.col, _arrays.as_float64(coo.data, "X")
     del coo  # each array goes as soon as it is replaced
     missing = np.isnan(values)

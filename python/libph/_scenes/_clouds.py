@@ -99,9 +99,9 @@ def _cloud(data: Any, colours: Any, run: dict[str, Any]) -> _core.Cloud:
     points = _arrays.side_by_side(_arrays.as_float64(array, "cloud"), "cloud")
     infinite = np.isinf(points)
     if infinite.any():
-        index = [int(i) for i in np.unravel_index(int(np.argmax(infinite)), points.shape)]
-        raise DataError(f"cloud: {_arrays.place_of(index)}: found {points[tuple(index)]}, expected "
-                        "a finite number, or nan for a hole")
+        index = _arrays.first_of(infinite)
+        raise DataError(f"cloud: {_arrays.place_of(index)}: found {points[index]}, expected a "
+                        "finite number, or nan for a hole")
     bytes_of = None if colours is None else _colours(colours, points.shape[:-1])
     return _run.run(_core.cloud_of_points, points, bytes_of, options=run)
 
@@ -133,8 +133,8 @@ def _colours(data: Any, shape: tuple[int, ...]) -> NDArray[np.uint8]:
     most = 1 if is_share else 255
     wrong = ~((array >= 0) & (array <= most))
     if wrong.any():
-        index = [int(i) for i in np.unravel_index(int(np.argmax(wrong)), array.shape)]
-        raise DataError(f"colours: {_arrays.place_of(index)}: found {array[tuple(index)]}, expected "
-                        f"a number from 0 to {most} (the array is {array.dtype})")
+        index = _arrays.first_of(wrong)
+        raise DataError(f"colours: {_arrays.place_of(index)}: found {array[index]}, expected a "
+                        f"number from 0 to {most} (the array is {array.dtype})")
     bytes_of = np.floor(array * 255 + 0.5) if is_share else array
     return np.asarray(bytes_of, dtype=np.uint8)

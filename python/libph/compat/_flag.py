@@ -19,7 +19,7 @@ from .. import _arrays, _core, _options
 from .._barcodes import Barcode
 from .._compute import rips
 from .._errors import DataError, UsageError
-from .._sources import Source, diagonal_of, unique_pairs
+from .._sources import Source, diagonal_of, sparse_entries, unique_pairs
 
 _STRIP = 512  # rows of a matrix that are processed together
 _ROUNDING = 1e-6  # the entries of a pair may differ by this share of the largest distance
@@ -168,7 +168,7 @@ def of_sparse(matrix: Any, limit: float, size: int, upper_wins: bool,
     Both triangles are read. If a pair has two entries, the upper one counts; with `upper_wins` they
     may differ.
     """
-    row, column, values = _arrays.sparse_entries(matrix)
+    row, column, values = sparse_entries(matrix)
     missing = np.isnan(values)
     if missing.any():
         k = int(np.argmax(missing))

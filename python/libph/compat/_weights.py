@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .. import _arrays, _options
+from .. import _arrays, _options, _sources
 from .._errors import DataError, NotBuiltIn, UsageError
 
 _STRIP = 512  # rows of a matrix that are computed together
@@ -56,7 +56,7 @@ def _of_sparse(matrix: Any, weights: ArrayLike | str, p: float, params: Mapping[
                ) -> tuple[Any, NDArray[np.float64]]:
     from scipy.sparse import coo_matrix
     n = max(matrix.shape)
-    row, column, values = _arrays.sparse_entries(matrix)
+    row, column, values = _sources.sparse_entries(matrix)
     _refuse_negative(values)
     row, column, values = (a[row != column] for a in (row, column, values))
     # Each pair once. If a pair has two entries, the upper one counts.

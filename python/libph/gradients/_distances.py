@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from .. import _arrays
+from .. import _arrays, _sources
 from .._errors import DataError, UsageError
 from ._values import Integers, Numbers
 
@@ -160,7 +160,7 @@ class SparseDistances(Distances):
     """Distances of a sparse matrix: each stored entry is a variable."""
 
     def __init__(self, X: Any) -> None:
-        coo = _arrays.coordinates(X, "X", copy=True)
+        coo = _sources.coordinates(X, "X", copy=True)
         self._coo, self.size = coo, coo.shape[0]
         row, column = coo.row.astype(np.int64), coo.col.astype(np.int64)
         key = np.minimum(row, column) * self.size + np.maximum(row, column)

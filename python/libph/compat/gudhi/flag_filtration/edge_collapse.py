@@ -9,7 +9,7 @@ import numpy as np
 from .... import _arrays, _options
 from ...._errors import DataError
 from ...._points import collapse
-from ...._sources import unique_pairs
+from ...._sources import coordinates, sparse_entries, unique_pairs
 
 __all__ = ["reduce_graph"]
 
@@ -37,8 +37,8 @@ def reduce_graph(input_edges: Any, nb_iterations: int = 1) -> Any:
     """
     from scipy.sparse import coo_matrix
     _options.whole("nb_iterations", nb_iterations, 0)
-    edges = _arrays.coordinates(input_edges, "input_edges")
-    row, column, values = _arrays.sparse_entries(edges, "input_edges")
+    edges = coordinates(input_edges, "input_edges")
+    row, column, values = sparse_entries(edges, "input_edges")
     for wrong, expected in ((np.isnan(values), "a number"),
                             ((row == column) & (values != 0), "none on the diagonal")):
         if wrong.any():
