@@ -17,6 +17,7 @@ from numpy.typing import DTypeLike, NDArray
 
 from . import _core, _options
 from ._errors import DataError, MemoryLimitError, UsageError
+from ._results import in_units
 
 _LARGEST = 2**53  # all whole numbers up to this one are doubles
 _LARGE = 2**24  # bytes
@@ -196,9 +197,9 @@ def as_float64(array: NDArray[Any], name: str, mask: NDArray[np.bool_] | None = 
 def require_room(needed: int, memory_limit: int | None, what: str) -> None:
     """Refuses data whose conversion would take more memory than a computation may take."""
     if memory_limit is not None and needed > memory_limit:
-        raise MemoryLimitError(f"memory limit of {memory_limit / 2**20:.3g} MiB would be exceeded: "
-                               f"the conversion of {what} may take {needed / 2**20:.3g} MiB; less "
-                               "data, or a larger memory_limit")
+        raise MemoryLimitError(f"memory limit of {in_units(memory_limit)} would be exceeded: the "
+                               f"conversion of {what} may take {in_units(needed)}; pass less data "
+                               "or a larger memory_limit")
 
 
 def _exceeds_memory(needed: int) -> bool:

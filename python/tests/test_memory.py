@@ -141,6 +141,13 @@ def test_the_conversion_of_a_sparse_matrix_is_counted():
             ph.rips(matrix, metric="precomputed", max_dim=3)
 
 
+def test_a_refused_conversion_names_sizes_and_a_way_out():
+    with pytest.raises(ph.MemoryLimitError, match="^memory limit of 1000 bytes would be exceeded: the "
+                       "conversion of the 100 simplices may take 8.594 KiB; pass less data or a "
+                       "larger memory_limit$"):
+        ph.filtered([(k, k + 1) for k in range(100)], np.zeros(100), memory_limit=1000)
+
+
 def test_shuffles_take_no_memory():
     distances = np.ones((4, 4)) - np.eye(4)
     test = ph.permutation_test(distances, [0, 0, 1, 1], shuffles=10**5, memory_limit="64KiB")
