@@ -2,27 +2,20 @@
 """Barcodes: sequences of bars, also available as arrays."""
 from __future__ import annotations
 
-import html
 import operator
-import os
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple, overload
 
 import numpy as np
 from numpy.typing import NDArray
 
-from .. import _core, _options, _run
+from .. import _core, _options
 from .._errors import UsageError
-from .._results import Meta, origin_of, require_version, with_arrays
-from .._vectors import Summaries
-from . import _layouts, _output, _places
+from .._results import Meta, require_version, with_arrays
+from .._vectors import Summaries, lengths
+from . import _layouts
 from ._cells import Cells
-
-if TYPE_CHECKING:
-    import pandas
-    from matplotlib.axes import Axes
-
-    from .._report import Report
+from ._output import Output
 
 # The layout of bars in _core.
 _BAR = np.dtype({"names": ["dim", "birth", "death"], "formats": ["i4", "f8", "f8"],
@@ -49,7 +42,7 @@ class Bar(NamedTuple):
 
 
 @_options.with_hints
-class Barcode(Cells, Summaries, Sequence[Bar]):
+class Barcode(Cells, Summaries, Output, Sequence[Bar]):
     """The result of persistent homology: bars, ordered by dimension, birth and death.
 
     An immutable sequence of `Bar`, also available as arrays. Barcodes are equal if their bars are
@@ -290,7 +283,7 @@ class Barcode(Cells, Summaries, Sequence[Bar]):
         """
         places = self._range(_options.whole("dim", dim, 0))
         births, deaths = self.births[places], self.deaths[places]
-        order = np.lexsort((-_output.lengths(births, deaths), deaths < np.inf)) + places.start
+        order = np.lexsort((-lengths(births, deaths), deaths < np.inf)) + places.start
         if n is not None:
             chosen: NDArray[np.int64] = order[:_options.whole("n", n, 0)]
             return chosen
@@ -317,130 +310,10 @@ class Barcode(Cells, Summaries, Sequence[Bar]):
             keep &= np.isin(dims, _options.one_or_several("dim", dim, 0))
         if min_persistence is not None:
             least = _options.real("min_persistence", min_persistence)
-            keep &= _output.lengths(births, deaths) > least
+            keep &= lengths(births, deaths) > least
         if born_before is not None:
             keep &= births < _options.real("born_before", born_before)
         return self._selected(np.flatnonzero(keep))
-
-    # ---- output
-
-    def to_numpy(self, layout: str = "dim-birth-death") -> Any:
-        """The bars in the layout of another program.
-
-        Parameters
-        ----------
-        layout : {"dim-birth-death", "giotto", "ripser", "gudhi"}
-            "dim-birth-death": rows dim, birth, death. "giotto": rows birth, death, dim, as in
-            giotto-tda. "ripser": a list of arrays as in ripser.py, with H0 sorted by death and
-            other dimensions by descending birth. "gudhi": a list of (dim, (birth, death)) as in
-            GUDHI, with dimensions descending and the longest bars first. `from_dgms` takes all of
-            them.
-        """
-        return _layouts.in_layout(self, layout)
-
-    def to_pandas(self, places: bool = False) -> pandas.DataFrame:
-        """A table with the columns dim, birth, death, and p if the bars have p-values.
-
-        Parameters
-        ----------
-        places : bool
-            Add columns that say where the hole of each bar is. For bars of points or simplices:
-            `birth_vertices` and `death_vertices`, the vertices of its cells. For images, which need
-            ``representatives="voxels"``: the voxels whose values are the birth and the death
-            (`birth_0`, `birth_1`, … by axis, and `death_0`, …), the mean place of the bar's voxels
-            or of its cycle (`centroid_0`, …) and the number of its voxels (`voxels`, 0 for a
-            cycle). If the image has an `affine`, also the same places in its space (`birth_x`,
-            `birth_y`, `birth_z`, …) and, in three axes, the `volume` of the voxels. NaN or None:
-            the bar never dies.
-        """
-        import pandas
-        columns: dict[str, Any] = dict(zip(("dim", "birth", "death"), map(np.array, self._arrays)))
-        if self.p_values is not None:
-            columns["p"] = self.p_values
-        if _options.flag("places", places):
-            columns |= _places.columns_of_places(self)
-        return pandas.DataFrame(columns)
-
-    def save(self, path: str | os.PathLike[str], format: str | None = None) -> None:
-        """Writes the barcode to a file, completely or not at all.
-
-        Parameters
-        ----------
-        path : path
-            The file; its extension selects the format: .csv, .json (with cells and chains),
-            .ripser, .pers, .dipha or .npy.
-        format : str, optional
-            "csv", "json", "ripser", "pers", "dipha" or "npy".
-        """
-        _run.run(_core.save, self._bars, _options.path_of(path),
-                 None if format is None else str(format), origin_of(self.meta), options={})
-
-    def plot(self, kind: str = "diagram", ax: Axes | None = None, *,
-             dims: int | Iterable[int] | None = None, noise: float | None = None,
-             **style: Any) -> Axes:
-        """Draws the barcode with matplotlib.
-
-        A notebook shows the picture; elsewhere ``matplotlib.pyplot.show()`` opens a window, and
-        ``axes.figure.savefig(path)`` writes a file.
-
-        Parameters
-        ----------
-        kind : {"diagram", "barcode", "betti"}
-            "diagram": points birth, death. "barcode": lines from birth to death. "betti": Betti
-            numbers over the filtration value.
-        ax : Axes, optional
-            The axes to draw on. Default: the axes of a new figure.
-        dims : int or iterable of int, optional
-            Show only these dimensions. Default: all.
-        noise : float, optional
-            For a diagram: draws a grey band along the diagonal that covers bars of at most this
-            length. For bars of `rips`, use ``4 * ph.confidence_radius(X)``.
-        **style
-            Passed on to the drawing function: `scatter`, `hlines` or `step`.
-
-        Returns
-        -------
-        Axes
-        """
-        from ._plots import plot
-        return plot(self, kind, ax, dims, noise, style)
-
-    def report(self, X: Any = None, *, title: str = "", **options: Any) -> Report:
-        """An interactive page that links diagram, barcode and data.
-
-        Parameters
-        ----------
-        X : optional
-            The data from which the bars were computed: the page shows them with cells, chains and
-            the merge tree. For a mesh or simplices, pass the result of `read`. Default: only the
-            bars are shown.
-        title : str
-            Title of the page. Default: a description of the data.
-        **options
-            Keywords of the computation that the barcode does not store: an array of `weights`, a
-            function as `metric`. For a barcode from a file, all keywords whose values were not the
-            defaults.
-
-        Returns
-        -------
-        Report
-
-        Raises
-        ------
-        NotBuiltIn
-            If libph was built without npm.
-        DataError
-            If the bars do not belong to X.
-        """
-        from .. import _report
-        return _report.report_of_bars(self, X, title, options)
-
-    def __repr__(self) -> str:
-        return _output.in_words(self)
-
-    def _repr_html_(self) -> str:
-        svg = _run.run(self._bars.svg, "", bool(self.meta.get("superlevel")), options={})
-        return f"<div>{html.escape(repr(self))}<br>{svg[svg.find('<svg'):]}</div>"
 
     def __reduce__(self) -> tuple[Any, ...]:
         return (_restored, (_STATE_VERSION, with_arrays(self._bars.state()), dict(self.meta)))

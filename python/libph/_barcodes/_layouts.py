@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from .. import _arrays, _options
 from .._errors import DataError, UsageError
-from ._output import lengths
+from .._vectors import lengths
 
 if TYPE_CHECKING:
     from ._barcode import Barcode

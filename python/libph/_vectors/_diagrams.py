@@ -37,6 +37,13 @@ def as_diagram(data: Any, name: str) -> Diagram:
     return dgm
 
 
+def lengths(births: NDArray[np.float64], deaths: NDArray[np.float64]) -> NDArray[np.float64]:
+    """The length of each bar: 0 for a bar that dies at its birth, even at -inf."""
+    lengths = np.zeros(len(births))
+    np.subtract(deaths, births, out=lengths, where=deaths != births)
+    return lengths
+
+
 def checked_infinity(infinity: Any, may_keep: bool) -> Infinity:
     """The treatment of infinite deaths: "error", "drop", "keep" where it is defined, or a
     number."""

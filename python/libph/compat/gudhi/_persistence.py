@@ -7,8 +7,8 @@ from numpy.typing import NDArray
 
 from ... import _options
 from ..._barcodes import Barcode
-from ..._barcodes._output import lengths
 from ..._errors import UsageError
+from ..._vectors import lengths
 
 
 class _OrderError(UsageError, RuntimeError):
