@@ -30,7 +30,6 @@ import csv
 import math
 import os
 import pathlib
-import subprocess
 import sys
 import tempfile
 from dataclasses import dataclass

@@ -243,7 +243,7 @@ def read_barcode(path: str | os.PathLike[str], format: str | None = None,
     """
     _run.check_names("read_barcode", dict(run), read_barcode)
     bars, meta, left_out = _run.run(_core.read_barcode, _options.path_of(path),
-                          None if format is None else str(format), options=dict(run))
+                                    None if format is None else str(format), options=dict(run))
     if left_out:
         _LOG.info("%s: not kept: %s", os.fspath(path), ", ".join(left_out))
     meta |= weights_in(meta["vertex_weights"])

@@ -324,8 +324,8 @@ def cubical_request(o: dict[str, Any]) -> Request:
     task = _task_of(o, _loops_of(o, "plain"), (*_CHAINS, "voxels"))
     recipe = _core.cubical_recipe(array, nan == "drop", _arrays.is_mapped_file(image),
                                   construction == "vertices", superlevel, periodic, threshold)
-    meta = _meta("cubical", o, shape=array.shape, affine=affine, construction=construction, superlevel=superlevel,
-                 periodic=tuple(int(k) for k in np.flatnonzero(periodic)),
+    meta = _meta("cubical", o, shape=array.shape, affine=affine, construction=construction,
+                 superlevel=superlevel, periodic=tuple(int(k) for k in np.flatnonzero(periodic)),
                  nan=None if nan == "error" else nan)
     return Request(recipe, task, o["run"], meta, layers)
 

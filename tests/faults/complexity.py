@@ -10,7 +10,6 @@ import math
 import os
 import random
 import resource
-import struct
 import subprocess
 import sys
 import tempfile

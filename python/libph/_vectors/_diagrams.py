@@ -68,9 +68,10 @@ def settled(dgm: Diagram, infinity: Infinity, name: str,
     if infinity == "keep" or not endless.any():
         return dgm
     if infinity == "error":
-        way = other_way(dgm) if other_way else ""
+        ways = [other_way(dgm) if other_way else "", "infinity='drop' leaves such bars out, "
+                "infinity=NUMBER sets their death"]
         raise UsageError(f"{name}: row {int(np.argmax(endless))}: found a bar that never dies; "
-                         + (way and f"{way}; ") + "infinity='drop' leaves such bars out, infinity=NUMBER sets their death")
+                         + "; ".join(filter(None, ways)))
     if infinity == "drop":
         kept: Diagram = dgm[~endless]
         return kept

@@ -15,7 +15,6 @@ import os
 import random
 import struct
 import sys
-import unittest
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../support"))
 import program  # noqa: E402
