@@ -16,8 +16,8 @@ MODULE = _table(
     ("CubicalComplex PeriodicCubicalComplex",
      "use ph.cubical, or libph.compat.gudhi for GUDHI's interface"),
     ("SimplexTree", "use ph.filtered(simplices, values)"),
-    ("AlphaComplex DelaunayCechComplex DelaunayComplex Alpha fill_alpha_shapes alpha_complex",
-     "use ph.alpha"),
+    ("AlphaComplex DelaunayComplex Alpha fill_alpha_shapes alpha_complex", "use ph.alpha"),
+    ("DelaunayCechComplex", "use ph.alpha with values='delaunay-cech'"),
     ("alphashape", "use ph.alpha_shape"),
     ("computePH compute_ph", "use ph.cubical, or libph.compat.cripser for CubicalRipser's interface"),
     ("lower_star_img", "use ph.cubical, or libph.compat.ripser for ripser.py's interface"),
@@ -25,7 +25,7 @@ MODULE = _table(
     ("CubicalPersistence", "use libph.sklearn.CubicalPersistence"),
     ("PersistenceImage PersistenceImager PersImage",
      "use bars.image(dim), or libph.sklearn.PersistenceImage"),
-    ("Landscape PersistenceLandscape PersLandscapeApprox landscape landscapes",
+    ("Landscape PersistenceLandscape PersistenceLandscaper PersLandscapeApprox landscape landscapes",
      "use bars.landscape(dim), or libph.sklearn.Landscape"),
     ("PersLandscapeExact", "use bars.exact_landscape(dim)"),
     ("Silhouette silhouette", "use bars.silhouette(dim), or libph.sklearn.Silhouette"),
@@ -66,13 +66,19 @@ MODULE = _table(
     ("gromov_hausdorff", "persim has it"),
 )
 
+
+def _as_in_module(names: str) -> dict[str, str]:
+    return {name: MODULE[name] for name in names.split()}
+
+
 BARCODE = _table(
     ("diagrams diagram dgm_ persistence intervals persistence_intervals "
      "persistence_intervals_in_dimension", "use dgm(dim) for one dimension, dgms() for all"),
     ("show plot_diagrams plot_diagram plot_barcode plot_persistence_diagram",
      "use plot(), plot('barcode')"),
-    ("dim dimension dimensions", "use dims, a number for each bar; len(bars) counts them"),
-    ("birth death lifetimes lengths persistences", "use births, deaths: arrays; deaths - births"),
+    ("dim dimension dimensions", "use dims, the dimension of each bar; len(bars) counts the bars"),
+    ("birth death", "use births, deaths, arrays with a number for each bar"),
+    ("lifetimes lengths persistences", "use deaths - births"),
     ("pairs cells persistence_pairs", "use birth_cells(dim), death_cells(dim)"),
     ("generators gens flag_persistence_generators cofaces_of_persistence_pairs",
      "use ph.gradients.deciders(bars, data): the edges or voxels that decide"),
@@ -128,25 +134,18 @@ SKLEARN = _table(
 
 # Functions and classes that a package has and the drop-in for it does not have.
 MISSING_NAMES = {
-    "persim": _table(
-        ("PersistenceImager PersImage", "use bars.image(dim), or libph.sklearn.PersistenceImage"),
-        ("PersLandscapeExact", "use bars.exact_landscape(dim)"),
-        ("PersLandscapeApprox PersistenceLandscaper",
-         "use bars.landscape(dim), or libph.sklearn.Landscape"),
-        ("heat", "use ph.diagram_kernels"),
+    "persim": _as_in_module(
+        "PersistenceImager PersImage PersLandscapeExact PersLandscapeApprox PersistenceLandscaper "
+        "heat persistent_entropy") | _table(
         ("sliced_wasserstein", "use ph.sliced_wasserstein"),
-        ("persistent_entropy", "use bars.entropy(dim), or libph.sklearn.Entropy"),
         ("bottleneck_matching", "use ph.bottleneck_matching(a, b).plot()"),
         ("wasserstein_matching", "use ph.wasserstein_matching(a, b).plot()"),
         ("gromov_hausdorff plot_landscape plot_landscape_simple death_vector vectorize snap_pl "
          "lc_approx average_approx average_exact", ""),
     ),
-    "gudhi": _table(
-        ("SimplexTree", "use ph.filtered(simplices, values)"),
-        ("AlphaComplex DelaunayComplex", "use ph.alpha"),
-        ("DelaunayCechComplex", "use ph.alpha with values='delaunay-cech'"),
-        ("WitnessComplex StrongWitnessComplex EuclideanWitnessComplex "
-         "EuclideanStrongWitnessComplex", "use ph.rips with subsample, the number of landmarks"),
+    "gudhi": _as_in_module(
+        "SimplexTree AlphaComplex DelaunayComplex DelaunayCechComplex WitnessComplex "
+        "StrongWitnessComplex EuclideanWitnessComplex EuclideanStrongWitnessComplex") | _table(
         ("choose_n_farthest_points", "ph.farthest_points gives the indices of the points"),
         ("sparsify_point_set", "ph.farthest_points(X, radius=r) thins points out"),
         ("plot_persistence_barcode", "use bars.plot('barcode')"),
@@ -162,13 +161,9 @@ MISSING_NAMES = {
     ),
 }
 MISSING_MODULES = {
-    "persim": _table(
-        ("images images_kernels images_weights",
-         "use bars.image(dim), or libph.sklearn.PersistenceImage"),
-        ("landscapes", "use bars.landscape(dim), or libph.sklearn.Landscape"),
-        ("heat", "use ph.diagram_kernels"),
+    "persim": _as_in_module("landscapes heat persistent_entropy") | _table(
+        ("images images_kernels images_weights", MODULE["PersistenceImage"]),
         ("sliced_wasserstein", "use ph.sliced_wasserstein"),
-        ("persistent_entropy", "use bars.entropy(dim), or libph.sklearn.Entropy"),
         ("gromov_hausdorff", ""),
     ),
     "gudhi": _table(
@@ -248,6 +243,8 @@ SAME = [row.split() for row in (
     "colours colors rgb",
 )]
 
+_SIZES = "spacing voxel_size voxelsize pixel_size pixdim zooms"  # of voxels
+
 # Names of keywords that need more words: the names, the keywords of libph that a function must have
 # for the hint to apply, and the hint. These rows come before SAME.
 EXPLAINED = [
@@ -257,10 +254,9 @@ EXPLAINED = [
      "nan='drop' leaves out the voxels that are NaN: np.where(mask, image, np.nan)"),
     ("mask roi", "intrinsics",
      "cloud[mask] chooses points, np.where(mask, depth, np.nan) chooses pixels"),
-    ("spacing voxel_size voxelsize pixel_size pixdim zooms", "construction",
-     "bars do not depend on it; ph.SpatialImage(image, affine) gives voxels their places"),
-    ("spacing voxel_size voxelsize pixel_size pixdim zooms", "affine",
-     "did you mean affine=np.diag([dx, dy, dz, 1])?"),
+    (_SIZES, "construction", "bars do not depend on the size of voxels; "
+     "ph.SpatialImage(image, affine) gives voxels their places"),
+    (_SIZES, "affine", "did you mean affine=np.diag([dx, dy, dz, 1])?"),
     ("connectivity neighbours neighbors neighborhood", "construction",
      "construction='vertices' joins 4 or 6 neighbours, construction='cells' 8 or 26"),
     ("filtration", "construction",
@@ -273,7 +269,7 @@ EXPLAINED = [
     ("max_dim maxdim max_dimension maxdimension max_homology_dim", "homology_dimensions",
      "did you mean homology_dimensions? It lists the dimensions: (0, 1, 2)"),
     ("max_dimension", "max_dim",
-     "did you mean max_dim, which counts homology: one less than GUDHI's max_dimension?"),
+     "did you mean max_dim? It is the highest dimension of bars, one less than GUDHI's max_dimension"),
     ("do_cocycles cocycles", "representatives", "did you mean representatives='cocycles'?"),
     ("do_cycles cycles generators", "representatives", "did you mean representatives='cycles'?"),
     ("return_generators", "representatives cells",
@@ -295,13 +291,13 @@ EXPLAINED = [
      "between the ends that birth_range and persistence_range give"),
     ("kernel_params", "bandwidth", "did you mean bandwidth, the standard deviation of a bar?"),
     ("cluster_tolerance eps tolerance", "min_part voxel",
-     "seams separate objects, not a distance; voxel is the scale, and method='paper' joins voxels "
-     "up to distance"),
+     "objects end at seams, and no distance separates them; voxel sets the scale; with "
+     "method='paper', distance joins the voxels that are at most so far apart"),
     ("min_cluster_size min_samples min_points", "min_part",
      "did you mean min_size, which counts voxels?"),
-    ("show", "ax noise", "matplotlib.pyplot.show() shows it"),
+    ("show", "ax noise", "matplotlib.pyplot.show() shows the picture"),
 ]
 
-# Words of which one is the opposite of the other.
+# Pairs of opposites.
 OPPOSITES = [("min", "max"), ("sub", "super"), ("lower", "upper"), ("before", "after"),
              ("birth", "death")]
