@@ -18,7 +18,7 @@ import numpy as np
 
 from ._errors import UsageError
 
-_Door = TypeVar("_Door", bound=Callable[..., Any])
+_Callable = TypeVar("_Callable", bound=Callable[..., Any])
 _BOOLS = (bool, np.bool_)
 _UNITS = {"": 1, "B": 1, "K": 10**3, "M": 10**6, "G": 10**9, "T": 10**12,
           "KI": 2**10, "MI": 2**20, "GI": 2**30, "TI": 2**40}
@@ -182,36 +182,36 @@ def user_level() -> int:
 # ---- keywords that a function does not have
 
 
-def with_hints(door: _Door) -> _Door:
-    """A function that answers an unknown keyword with the one that is meant; for a class, its
-    constructor and its methods do.
+def with_hints(target: _Callable) -> _Callable:
+    """A decorator: if a function gets an unknown keyword, its error names the keyword that is
+    meant. For a class, it decorates the constructor and the methods.
 
-    Functions with run options do this with `_run.check_names`.
+    Functions with run options call `_run.check_names` instead.
     """
-    if isinstance(door, type):
-        for name, member in list(vars(door).items()):
-            function = getattr(member, "__func__", member)  # of a static method
+    if isinstance(target, type):
+        for name, member in list(vars(target).items()):
+            function = getattr(member, "__func__", member)  # of a static method or class method
             if isinstance(function, FunctionType) and (
                     not name.startswith("_") or name in ("__init__", "__new__")):
                 answering = with_hints(function)
-                setattr(door, name, answering if function is member else type(member)(answering))
-        return door  # type: ignore[return-value]
-    if door.__code__.co_flags & inspect.CO_VARKEYWORDS:
-        return door
+                setattr(target, name, answering if function is member else type(member)(answering))
+        return target  # type: ignore[return-value]
+    if target.__code__.co_flags & inspect.CO_VARKEYWORDS:
+        return target
 
-    @functools.wraps(door)
+    @functools.wraps(target)
     def call(*arguments: Any, **keywords: Any) -> Any:
         try:
-            return door(*arguments, **keywords)
+            return target(*arguments, **keywords)
         except TypeError:
-            known = inspect.signature(door).parameters
+            known = inspect.signature(target).parameters
             unknown = [name for name in keywords if name not in known]
             if not unknown:
                 raise
             from . import _hints
-            name = door.__name__
+            name = target.__name__
             if name in ("__init__", "__new__"):
-                name = door.__qualname__.split(".")[-2]
+                name = target.__qualname__.split(".")[-2]
             raise _hints.unexpected(name, unknown[0], list(known)) from None
 
     return call  # type: ignore[return-value]

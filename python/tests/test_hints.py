@@ -62,7 +62,7 @@ HAND_ON = {"batch", "estimate", "merge_tree", "report", "Barcode.plot", "Barcode
            "Rips.plot", "DiagramDistances.fit_transform", "DiagramKernels.fit_transform"}
 
 
-def doors():
+def callables():
     """All functions, constructors and methods with parameters, by name."""
     modules = [ph, ph.gradients, *(getattr(ph.compat, name) for name in
                                    ("ripser", "gph", "cripser", "tcripser", "gudhi", "persim"))]
@@ -74,51 +74,51 @@ def doors():
     found = {}
     for module in modules:
         for name in module.__all__:
-            door = getattr(module, name)
-            if inspect.isclass(door) and not issubclass(door, (Exception, tuple, ph.Matching)):
-                found[f"{module.__name__}.{name}"] = door
-                found |= {f"{name}.{method}": getattr(door, method) for method in dir(door)
-                          if not method.startswith("_") and inspect.isfunction(getattr(door, method))
-                          and getattr(door, method).__module__.startswith("libph.")}
-            elif inspect.isfunction(door):
-                found[f"{module.__name__}.{name}" if module is not ph else name] = door
+            target = getattr(module, name)
+            if inspect.isclass(target) and not issubclass(target, (Exception, tuple, ph.Matching)):
+                found[f"{module.__name__}.{name}"] = target
+                found |= {f"{name}.{method}": getattr(target, method) for method in dir(target)
+                          if not method.startswith("_") and inspect.isfunction(getattr(target, method))
+                          and getattr(target, method).__module__.startswith("libph.")}
+            elif inspect.isfunction(target):
+                found[f"{module.__name__}.{name}" if module is not ph else name] = target
     return found
 
 
-ALL_DOORS = doors()
-DOORS = {name: door for name, door in ALL_DOORS.items() if name not in HAND_ON}
+ALL_CALLABLES = callables()
+CALLABLES = {name: target for name, target in ALL_CALLABLES.items() if name not in HAND_ON}
 NAMES = {name for names, _, _ in _hints.EXPLAINED for name in names.split()}.union(*_hints.SAME)
 
 
-def keywords_of(door):
+def keywords_of(target):
     """The keywords of a function, including run options."""
-    parameters = inspect.signature(door).parameters
+    parameters = inspect.signature(target).parameters
     has_run = any(p.kind is p.VAR_KEYWORD for p in parameters.values())
     return {*parameters, *(ph._run._NAMES if has_run else ())}
 
 
-def called_with(door, keyword):
+def called_with(target, keyword):
     """The message of a call with an unknown keyword."""
-    given = {name: object() for name, p in inspect.signature(door).parameters.items()
+    given = {name: object() for name, p in inspect.signature(target).parameters.items()
              if p.default is p.empty and p.kind not in (p.VAR_KEYWORD, p.VAR_POSITIONAL)}
     if "self" in given:  # a method, whose class the result of a computation has
-        owner = getattr(ph, door.__qualname__.split(".")[0], object)
+        owner = getattr(ph, target.__qualname__.split(".")[0], object)
         given["self"] = object.__new__(owner)
     with pytest.raises(TypeError) as refused:
-        door(**given, **{keyword: 1})
+        target(**given, **{keyword: 1})
     return str(refused.value)
 
 
-def test_there_are_many_doors():
-    assert len(DOORS) > 90 and {"rips", "Barcode.image", "libph.sklearn.RipsPersistence",
-                                "libph.compat.ripser.Rips", "delay_embedding"} <= set(DOORS)
+def test_there_are_many_callables():
+    assert len(CALLABLES) > 90 and {"rips", "Barcode.image", "libph.sklearn.RipsPersistence",
+                                "libph.compat.ripser.Rips", "delay_embedding"} <= set(CALLABLES)
 
 
-@pytest.mark.parametrize("name", DOORS)
+@pytest.mark.parametrize("name", CALLABLES)
 def test_keywords_of_other_packages(name):
     """Each row of the tables, in each function that it applies to."""
-    door = DOORS[name]
-    known = keywords_of(door)
+    target = CALLABLES[name]
+    known = keywords_of(target)
     for names, needed, hint in _hints.EXPLAINED:
         if set(needed.split()) <= known:
             there = known & set(names.split()) - ({"dims"} if name == "boundary" else set())
@@ -128,12 +128,12 @@ def test_keywords_of_other_packages(name):
     for keyword in sorted(NAMES - known):
         hint = _hints.of_foreign_keyword(keyword, known)
         if hint:
-            message = called_with(door, keyword)
+            message = called_with(target, keyword)
             assert message.endswith(f"got an unexpected keyword argument {keyword!r}{hint}")
 
 
 def test_each_row_applies():
-    known = [keywords_of(door) for door in ALL_DOORS.values()]
+    known = [keywords_of(target) for target in ALL_CALLABLES.values()]
     if importlib.util.find_spec("sklearn"):
         for names, needed, hint in _hints.EXPLAINED:
             assert any(set(needed.split()) <= words for words in known), (names, needed)
@@ -142,7 +142,7 @@ def test_each_row_applies():
 
 
 def test_keywords_in_hints_are_there():
-    known = set().union(*map(keywords_of, DOORS.values())) | {"constant_values"}
+    known = set().union(*map(keywords_of, CALLABLES.values())) | {"constant_values"}
     for _, _, hint in _hints.EXPLAINED:
         assert set(re.findall(r"\b([a-z_]+)=", hint)) <= known, hint
 
