@@ -110,11 +110,17 @@ class Cells:
         return mask
 
     def labels(self, dim: int) -> SpatialImage:
-        """A label image: at each voxel i + 1, if the voxel belongs to bar i of a dimension, or 0.
+        """A label image: the voxels of bar i of a dimension have the label i + 1, all others 0.
 
-        If a voxel belongs to several bars, whose sets of voxels are nested, the smallest set
-        counts. The voxels of the component that never dies are all voxels: ``bars.filter`` leaves
-        bars out. The image has the `affine` of the barcode.
+        The sets of voxels of two bars are nested or disjoint. A voxel of several bars has the label
+        of the smallest set. A component that never dies has all voxels connected with it;
+        ``bars.filter`` leaves such bars out. The image has the `affine` of the barcode.
+
+        Raises
+        ------
+        UsageError
+            If the barcode was computed without ``representatives="voxels"``, or if the bars of the
+            dimension have cycles instead of sets of voxels.
 
         Examples
         --------

@@ -28,16 +28,17 @@ class Segment(NamedTuple):
     persistence : float
         The value at which the object first meets another object, minus its own lowest value. It
         measures the confidence in the object, and is inf if the object meets no other.
-    centroid : ndarray
-        The mean of its points, without the points at its base on the plane.
-    box : ndarray
-        The least and the largest coordinates of its points, (2, 3).
-    centre : ndarray
+    centroid : ndarray (3,)
+        The mean of its points, without the points at its base on the plane. All lengths are in
+        metres.
+    box : ndarray (2, 3)
+        The least and the largest coordinates of its points.
+    centre : ndarray (3,)
         The middle of the tight box around its visible part.
-    axes : ndarray
+    axes : ndarray (3, 3)
         Three unit vectors along the tight box, one per row. If a plane was removed, the last vector
         is the normal of the plane.
-    size : ndarray
+    size : ndarray (3,)
         The length of the tight box along each axis.
     neighbours : tuple of (int, float)
         The labels of the objects that it touches, each with the value at which the two meet, in the
