@@ -212,7 +212,6 @@ SAME = [row.split() for row in (
     "weights weight_params",
     "weight_power weight weight_function",
     "superlevel super_level superlevel_sets upper_level",
-    "construction filtration",
     "periodic periodic_dimensions periodic_axes pbc",
     "period box box_size",
     "order p",
@@ -282,8 +281,8 @@ EXPLAINED = [
     ("radii", "weights squared", "did you mean weights, the squares of radii: weights=radii**2?"),
     ("sparse epsilon", "approximation",
      "did you mean approximation, which is sparse / (1 - sparse)?"),
-    ("reduced reduced_homology", "min_dim max_dim", "libph.sklearn.RipsPersistence(reduced=True) "
-     "leaves out the component that never dies"),
+    ("reduced reduced_homology", "min_dim max_dim", "the estimators of libph.sklearn take "
+     "reduced=True, which leaves out the component that never dies"),
     ("metric", "distance order", "did you mean 'distance'?"),
     ("im_range image_range", "birth_range persistence_range",
      "did you mean birth_range and persistence_range?"),
