@@ -259,14 +259,16 @@ def _fields_of(data: NDArray[Any], name: str) -> NDArray[np.float64]:
     """The coordinates in a structured array, such as the vertices of a RealSense camera."""
     names = list(data.dtype.names or ())
     fields = [field for axis in "xyz" for field in names if field.lower() == axis]
+    kinds = "biuf"
     if [field.lower() for field in fields] != ["x", "y", "z"]:
-        fields = names
-        if not all(data.dtype[field].kind == "f" for field in fields):
-            raise DataError(f"{name}: found records of the fields {', '.join(names)}, expected fields "
-                            "x, y and z, or only floats; "
-                            "numpy.lib.recfunctions.structured_to_unstructured makes points of the "
-                            "fields that you choose")
-    return np.stack([np.asarray(data[field], dtype=np.float64).ravel() for field in fields], axis=1)
+        fields, kinds = names, "f"
+    if not all(data.dtype[field].kind in kinds for field in fields):
+        raise DataError(f"{name}: found records of the fields {', '.join(names)}, expected numbers "
+                        "x, y and z, or only floats; "
+                        "numpy.lib.recfunctions.structured_to_unstructured makes points of the "
+                        "fields that you choose")
+    columns = [(data[field].ravel(), f"{name}[{field!r}]") for field in fields]
+    return np.stack([as_float64(as_array(column, place), place) for column, place in columns], axis=1)
 
 
 def _warn_of_columns(data: Any, points: NDArray[Any], name: str) -> None:

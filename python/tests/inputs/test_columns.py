@@ -31,6 +31,22 @@ def test_fields_of_a_structured_array_are_coordinates():
         ph.rips(cloud[["ring", "z"]])
     with pytest.raises(ph.DataError, match="records of several fields"):
         ph.cubical(cloud)
+    masked = np.ma.array(cloud)
+    masked["x"][2] = np.ma.masked
+    assert bars_of(masked[[0, 1]]) == bars_of(XYZ[:2])
+    with pytest.raises(ph.DataError, match="point 2, coordinate 0: found nan"):
+        ph.rips(masked)
+
+
+@pytest.mark.parametrize("field, value, message", [
+    ("S4", b"far", "expected numbers x, y and z"), (("f4", (2,)), 0, "expected numbers x, y and z"),
+    ("i8", 2**53 + 1, r"X\['x'\]: entry 0: found 9007199254740993, expected")])
+def test_fields_that_are_no_coordinates(field, value, message):
+    dtype = [("x", *field) if isinstance(field, tuple) else ("x", field), ("y", "f4"), ("z", "f4")]
+    cloud = np.zeros(3, dtype=dtype)
+    cloud["x"] = value
+    with pytest.raises(ph.DataError, match=message):
+        ph.rips(cloud)
 
 
 @pytest.mark.parametrize("others", [[7.0 * np.arange(20)], [np.arange(20), np.ones(20)]])
