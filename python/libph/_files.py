@@ -155,12 +155,16 @@ def found_by(path: Any, format: Any, values: Any, nan: Any, columns: Any, array:
         raise _options.refuse("columns", columns, "names or numbers of columns")
     if raw_shape is not None and raw_points is not None:
         raise _errors.UsageError("raw_points: cannot be combined with raw_shape, which reads an image")
-    has_layout = raw_shape is not None or raw_points is not None
-    if has_layout and name == "auto":
+    raw = {"raw_shape": raw_shape, "raw_points": raw_points, "raw_dtype": raw_dtype,
+           "raw_skip": options["raw_skip"] or None}
+    given = ", ".join(option for option, value in raw.items() if value is not None)
+    if given and name == "auto":
+        if raw_shape is None and raw_points is None:
+            raise _errors.UsageError(f"{given}: found neither raw_shape nor raw_points, expected one "
+                                     "of them")
         name = "raw"
-    if name != "raw" and (has_layout or raw_dtype is not None or options["raw_skip"]):
-        raise _errors.UsageError("raw_shape, raw_points, raw_dtype, raw_skip: found format "
-                                 f"{name!r}, expected 'raw' and a raw_shape or raw_points")
+    if given and name != "raw":
+        raise _errors.UsageError(f"{given}: found format={format!r}, expected format='raw'")
     file = _options.path_of(path)
     if format is None and columns is None and _is_barcode(file):
         raise _errors.DataError(f"{os.fsdecode(file)}: found a barcode, expected data; "

@@ -77,7 +77,9 @@ def test_points_without_a_header(tmp_path):
     assert np.array_equal(ph.read(tmp_path / "w.bin", raw_points=4, raw_dtype=">f8"), scan)
     assert ph.read(tmp_path / "v.bin").shape == (16, 16), "also a triangle of distances"
     for wrong, words in (({"raw_points": 0}, "raw_points"), ({"raw_points": 4, "raw_shape": (120,)}, "raw_shape"),
-                         ({"raw_points": 4, "format": "points"}, "found format 'points'")):
+                         ({"raw_points": 4, "format": "points"}, "raw_points: found format='points', expected"),
+                         ({"raw_dtype": "f4", "raw_skip": 2},
+                          "raw_dtype, raw_skip: found neither raw_shape nor raw_points")):
         with pytest.raises(ph.UsageError, match=words):
             ph.read(tmp_path / "v.bin", **wrong)
     with pytest.raises(ph.DataError, match="truncated point"):
