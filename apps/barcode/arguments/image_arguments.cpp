@@ -78,16 +78,15 @@ void add_raw_options(app::Options& options, Job& job) {
   options.topic("raw");
   options.value(
       {"--raw-shape", kOfRaw}, "N,M,…",
-      "sizes of the axes, the last one fastest; the input is numbers without a header that "
-      "says so (--format raw)",
+      "sizes of the axes, the last one fastest, of an image without a header (--format raw)",
       [&job](const std::string& text) {
         constexpr Index most = Index{1} << 32;
         const auto extents = parse_integers("--raw-shape", text, 0, most);
         raw(job).extents.assign(extents.begin(), extents.end());
       });
   options.value({"--raw-points", kOfRawPoints}, "D",
-                "the input is points of D numbers each without a header that says so; --columns "
-                "chooses some of these numbers",
+                "numbers per point, in a file of points without a header; --columns chooses some "
+                "of these numbers",
                 [&job](const std::string& text) {
                   constexpr Index most = Index{1} << 20;
                   raw(job).coordinates = parse_integer("--raw-points", text, 1, most);
@@ -95,7 +94,7 @@ void add_raw_options(app::Options& options, Job& job) {
   options.choice({"--raw-type", kOfRawNumbers},
                  {"uint8", "int8", "uint16", "int16", "uint32", "int32", "uint64", "int64",
                   "float16", "float32", "float64"},
-                 "what they are (default uint8 for an image, float32 for points)",
+                 "type of the numbers (default uint8 for an image, float32 for points)",
                  [&job](std::size_t i) {
                    constexpr std::array kTypes{"u1", "i1", "u2", "i2", "u4", "i4",
                                                "u8", "i8", "f2", "f4", "f8"};
@@ -103,7 +102,7 @@ void add_raw_options(app::Options& options, Job& job) {
                  });
   options.flag({"--raw-big-endian", kOfRawNumbers}, "the high byte comes first (default: last)",
                [&job] { raw(job).big_endian = true; });
-  options.value({"--raw-skip", kOfRawNumbers}, "BYTES", "bytes before them: a header (default 0)",
+  options.value({"--raw-skip", kOfRawNumbers}, "BYTES", "bytes before the first number (default 0)",
                 [&job](const std::string& text) {
                   raw(job).skip = static_cast<std::size_t>(parse_integer("--raw-skip", text, 0));
                 });

@@ -24,7 +24,7 @@ constexpr std::array<Name, 1> kCommands{"plot"};
 
 constexpr std::array kTopics{
     app::Topic{"input", "Input: formats, tables, matrices, missing values"},
-    app::Topic{"raw", "Raw images: numbers without a header"},
+    app::Topic{"raw", "Raw images and points: numbers without a header"},
     app::Topic{"complexes", "Complexes and distances"},
     app::Topic{"rips", "Rips complexes: fewer edges and points, weights"},
     app::Topic{"alpha", "Alpha complexes: points of the plane and of space"},
@@ -62,7 +62,7 @@ constexpr std::array<Name, 2> kUsagesOfRanks{"[OPTION...] IMAGE -o BARS",
 
 constexpr std::array kTopicsOfRanks{
     app::Topic{"input", "Input: formats, tables, missing values"},
-    app::Topic{"raw", "Raw images: numbers without a header"},
+    app::Topic{"raw", "Raw images and points: numbers without a header"},
     app::Topic{"complexes", "Complexes: images, or points"},
     app::Topic{"cubical", "Cubical complexes of images"},
     app::Topic{"engines", "Homology: dimensions, field"},

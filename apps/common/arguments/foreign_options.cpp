@@ -22,8 +22,8 @@ constexpr std::array kRows{
     ForeignOptions{"maxdim dim dimension maxdimension upper-dim", "--max-dim"},
     ForeignOptions{
         "max-dimension cpx-dimension", "--max-dim",
-        "did you mean '--max-dim', which counts homology: one less than the dimension of "
-        "the complex?"},
+        "did you mean '--max-dim'? It is the highest dimension of bars, one less than the "
+        "dimension of the complex"},
     ForeignOptions{"homology-dimensions top-dim", "--min-dim",
                    "--min-dim and --max-dim are the ends of a range: --min-dim 2 --max-dim 2 gives "
                    "H2 alone"},
@@ -34,7 +34,8 @@ constexpr std::array kRows{
     ForeignOptions{"sublevel", "--superlevel",
                    "sublevel sets are the default, --superlevel takes superlevel sets"},
     ForeignOptions{"mask", "--nan", "'--nan drop' leaves out the voxels that are NaN"},
-    ForeignOptions{"spacing pixdim voxel-spacing", "--construction", "bars do not depend on it"},
+    ForeignOptions{"spacing pixdim voxel-spacing", "--construction",
+                   "bars do not depend on the size of voxels"},
     ForeignOptions{"connectivity neighbours neighbors", "--construction",
                    "'--construction vertices' joins 4 or 6 neighbours, '--construction cells' 8 or "
                    "26"},
@@ -53,8 +54,9 @@ constexpr std::array kRows{
                    "did you mean '--approximate', which is sparse / (1 - sparse)?"},
     ForeignOptions{"voxel-size leaf-size leaf voxel-resolution", "--voxel"},
     ForeignOptions{"cluster-tolerance eps tolerance", "--min-part",
-                   "seams separate objects, not a distance; --voxel is the scale, and '--method "
-                   "paper' joins voxels up to --distance"},
+                   "objects end at seams, and no distance separates them; --voxel sets the scale; "
+                   "with '--method paper', --distance joins the voxels that are at most so far "
+                   "apart"},
     ForeignOptions{"min-cluster-size min-points min-samples", "--min-size",
                    "did you mean '--min-size', which counts voxels?"},
     ForeignOptions{"distance-threshold ransac-threshold plane-threshold", "--plane-distance"},
