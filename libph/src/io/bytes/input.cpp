@@ -193,14 +193,27 @@ Input Input::hold(ScratchFile bytes, const std::string& name, const RunContext* 
   return input;
 }
 
-Input Input::open(const std::filesystem::path& whole_path, const RunContext* context, Excess excess,
-                  const StartCheck& check) {
+namespace {
+
+// True if data of this size would take more than a third of the memory left in the budget.
+bool is_too_large(std::size_t bytes, Input::Excess excess, const RunContext* context) {
+  if (excess == Input::Excess::refused || context == nullptr) return false;
+  return excess == Input::Excess::is_expected || bytes > context->memory.left() / 3;
+}
+
+}  // namespace
+
+Input Input::open_stored(const std::filesystem::path& whole_path, const RunContext* context,
+                         Excess excess, const StartCheck& check) {
   Input input;
   std::filesystem::path path;
   std::tie(path, input.member_) = split_member(whole_path);
   const bool standard_input = path == "-";
   input.name_ = standard_input ? "<stdin>" : printable(path.string());
-  if (!standard_input) input.extension_ = lower_extension(path);
+  if (!standard_input) {
+    input.extension_ = lower_extension(path);
+    input.path_ = path;
+  }
   input.context_ = context;
 
   if (standard_input) files::pass_bytes(files::kStandardInput);
@@ -219,11 +232,7 @@ Input Input::open(const std::filesystem::path& whole_path, const RunContext* con
   const bool sized = status->kind == files::Kind::regular && status->size > 0 &&
                      (!standard_input || files::is_at_start(file.get()));
   const auto file_size = sized ? static_cast<std::size_t>(status->size) : 0;
-  const auto is_too_large = [&](std::size_t bytes) {
-    if (excess == Excess::refused || context == nullptr) return false;
-    return excess == Excess::is_expected || bytes > context->memory.left() / 3;
-  };
-  const bool exceeds = file_size > kFirstChunk && is_too_large(file_size);
+  const bool exceeds = file_size > kFirstChunk && is_too_large(file_size, excess, context);
   if (file_size > kMapFrom || exceeds) {
     storage->exceeds = exceeds;
     // The pages of a mapped file occupy memory while they are read.
@@ -292,18 +301,32 @@ Input Input::open(const std::filesystem::path& whole_path, const RunContext* con
   }
   input.text_ = std::string_view(storage->data, storage->used);
   input.storage_ = std::move(storage);
-  if (!detail::is_gzip(input.text_)) return input;
+  return input;
+}
 
-  const std::size_t most = context != nullptr && context->memory.limit() != MemoryBudget::kUnlimited
-                               ? context->memory.limit()
-                               : half_of_memory();
-  const bool is_large = is_too_large(detail::stated_size(input.text()));
-  Input unpacked = is_large ? hold(detail::gunzip_to_file(input), {}, context)
-                            : hold(detail::gunzip(input, most), {}, context);
-  unpacked.name_ = input.name_;
-  unpacked.member_ = input.member_;
-  unpacked.extension_ = input.extension_ == ".gz" ? lower_extension(path.stem()) : input.extension_;
+Input Input::open(const std::filesystem::path& path, const RunContext* context, Excess excess,
+                  const StartCheck& check) {
+  Input input = open_stored(path, context, excess, check);
+  if (!detail::is_gzip(input.text())) return input;
+  Input unpacked = input.unpacked(0, detail::stated_size(input.text()), excess);
+  if (input.extension_ == ".gz") unpacked.extension_ = lower_extension(input.path_.stem());
   return unpacked;
+}
+
+Input Input::unpacked(std::size_t offset, std::size_t size, Excess excess) const {
+  const std::size_t most =
+      context_ != nullptr && context_->memory.limit() != MemoryBudget::kUnlimited
+          ? context_->memory.limit()
+          : half_of_memory();
+  const detail::Packed packed{*this, offset, size};
+  Input result = is_too_large(size, excess, context_)
+                     ? hold(detail::unpack_to_file(packed), {}, context_)
+                     : hold(detail::unpack(packed, most), {}, context_);
+  result.name_ = name_;
+  result.member_ = member_;
+  result.extension_ = extension_;
+  result.path_ = path_;
+  return result;
 }
 
 bool Input::stays_in_file() const { return storage_ != nullptr && storage_->exceeds; }

@@ -115,12 +115,14 @@ std::size_t stated_size(std::string_view packed) {
 namespace {
 
 template <class Buffer>
-void gunzip_into(Buffer& bytes, const Input& input, std::size_t most) {
-  const std::string_view packed = input.text();
+void unpack_into(Buffer& bytes, const Packed& source, std::size_t most) {
+  const auto& [input, offset, stated] = source;
+  const std::string_view packed = input.text().substr(offset);
   const std::size_t reasonable =
       std::max(kMostFree, checked_product(packed.size(), kMostExpansion).value_or(SIZE_MAX));
-  const std::size_t stated = stated_size(packed);
-  Inflater inflater(packed, 15 + 16);
+  const bool is_zlib = !is_gzip(packed);
+  const std::string_view kind = is_zlib ? "zlib" : "gzip";
+  Inflater inflater(packed, is_zlib ? 15 : 15 + 16);
   for (;;) {
     input.poll();
     const std::size_t before = bytes.size();
@@ -128,7 +130,7 @@ void gunzip_into(Buffer& bytes, const Input& input, std::size_t most) {
     // allowed factor, the rest is not unpacked. Unpacking it could only confirm the stated size.
     const bool goes_on = stated > reasonable && before / kMostExpansion > inflater.used();
     if (before >= reasonable || goes_on) {
-      input.fail_at_byte(inflater.used(),
+      input.fail_at_byte(offset + inflater.used(),
                          {"compressed data expand too much",
                           fmt::format("more than {} MiB", (goes_on ? stated : before) >> 20),
                           fmt::format("at most {} times {} bytes", kMostExpansion, packed.size()),
@@ -145,23 +147,27 @@ void gunzip_into(Buffer& bytes, const Input& input, std::size_t most) {
     const std::size_t done = inflater.unpack(bytes.data() + before, wanted);
     bytes.resize(before + done);
     if (!inflater.damage().empty()) {
-      input.fail_at_byte(inflater.used(),
-                         {"damaged gzip data", inflater.damage(), "gzip data", {}});
+      input.fail_at_byte(offset + inflater.used(), {fmt::format("damaged {} data", kind),
+                                                    inflater.damage(),
+                                                    fmt::format("{} data", kind),
+                                                    {}});
     }
     if (!inflater.ended()) {
       if (done == wanted) continue;
-      input.fail_at_byte(packed.size(), {"truncated gzip data",
-                                         fmt::format("the end after {} bytes", packed.size()),
-                                         "the end of the compressed stream",
-                                         {}});
+      input.fail_at_byte(input.size(), {fmt::format("truncated {} data", kind),
+                                        fmt::format("the end after {} bytes", packed.size()),
+                                        "the end of the compressed stream",
+                                        {}});
     }
     const std::string_view rest = packed.substr(inflater.used());
     if (rest.empty()) return;
-    if (!is_gzip(rest)) {
-      input.fail_at_byte(inflater.used(), {"trailing data after gzip data",
-                                           fmt::format("{} more bytes", rest.size()),
-                                           "the end of the file or a further gzip member",
-                                           {}});
+    if (is_zlib || !is_gzip(rest)) {
+      input.fail_at_byte(
+          offset + inflater.used(),
+          {fmt::format("trailing data after {} data", kind),
+           fmt::format("{} more bytes", rest.size()),
+           is_zlib ? "the end of the file" : "the end of the file or a further gzip member",
+           {}});
     }
     inflater.restart();
   }
@@ -169,22 +175,23 @@ void gunzip_into(Buffer& bytes, const Input& input, std::size_t most) {
 
 // The initial size of the buffer. It is about the stated size, but at most four times the packed
 // size, because the stated size may be false. It is always larger than kStep.
-std::size_t likely_size(std::string_view packed) {
-  return std::clamp(stated_size(packed), kStep, std::max(4 * packed.size(), kStep)) + 1;
+std::size_t likely_size(const Packed& packed) {
+  const std::size_t size = packed.input.size() - packed.offset;
+  return std::clamp(packed.size, kStep, std::max(4 * size, kStep)) + 1;
 }
 
 }  // namespace
 
-std::pmr::vector<char> gunzip(const Input& input, std::size_t most) {
-  std::pmr::vector<char> bytes(memory_of(input));
-  bytes.reserve(std::min(likely_size(input.text()), most));
-  gunzip_into(bytes, input, most);
+std::pmr::vector<char> unpack(const Packed& packed, std::size_t most) {
+  std::pmr::vector<char> bytes(memory_of(packed.input));
+  bytes.reserve(std::min(likely_size(packed), most));
+  unpack_into(bytes, packed, most);
   return bytes;
 }
 
-ScratchFile gunzip_to_file(const Input& input) {
-  FileBuffer bytes(likely_size(input.text()));
-  gunzip_into(bytes, input, SIZE_MAX);
+ScratchFile unpack_to_file(const Packed& packed) {
+  FileBuffer bytes(likely_size(packed));
+  unpack_into(bytes, packed, SIZE_MAX);
   return bytes.take();
 }
 

@@ -21,15 +21,23 @@ bool is_gzip(std::string_view bytes);
 /// The unpacked size that a gzip file states for its last member, modulo 2^32.
 std::size_t stated_size(std::string_view packed);
 
-/// Unpacks all members of a gzip file, one after another.
-/// @param most the largest unpacked size that is allowed, even for a small file.
-/// @throws Error (bad_data) if the file is damaged or truncated, has trailing data or expands too
-/// much; Error (resource) if the unpacked data are larger than `most`.
-std::pmr::vector<char> gunzip(const Input& packed, std::size_t most);
+/// Compressed data from a place of an input to its end: the members of a gzip file, one after
+/// another, or one zlib stream.
+struct Packed {
+  const Input& input;
+  std::size_t offset = 0;
+  std::size_t size = 0;  ///< the unpacked size that the file states, which may be false
+};
 
-/// Like gunzip, but unpacks into a temporary file, without a limit `most`. @throws as gunzip; Error
+/// Unpacks data.
+/// @param most the largest unpacked size that is allowed, even for a small file.
+/// @throws Error (bad_data) if the data are damaged or truncated, have trailing data or expand too
+/// much; Error (resource) if the unpacked data are larger than `most`.
+std::pmr::vector<char> unpack(const Packed& packed, std::size_t most);
+
+/// Like unpack, but unpacks into a temporary file, without a limit `most`. @throws as unpack; Error
 /// (io).
-ScratchFile gunzip_to_file(const Input& packed);
+ScratchFile unpack_to_file(const Packed& packed);
 
 /// Unpacks a raw deflate stream, which must consist of exactly `packed_size` bytes and expand to
 /// exactly `size` bytes.

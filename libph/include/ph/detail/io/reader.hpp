@@ -71,6 +71,13 @@ class Input {
   ///         a stream begins with 1 MiB of NUL bytes, as /dev/zero does.
   static Input open(const std::filesystem::path& path, const RunContext* context = nullptr,
                     Excess excess = Excess::refused, const StartCheck& check = {});
+  /// Opens a file as `open` does, but does not unpack it: bytes that look compressed may be data.
+  static Input open_stored(const std::filesystem::path& path, const RunContext* context = nullptr,
+                           Excess excess = Excess::refused, const StartCheck& check = {});
+  /// Unpacks the bytes from `offset` to the end. They are all members of a gzip file, or one zlib
+  /// stream, as their first bytes say. @param size the size that a header states for the unpacked
+  /// data. @throws as `open`; Error (bad_data) also on bytes that are not compressed.
+  Input unpacked(std::size_t offset, std::size_t size, Excess excess) const;
   /// An input that only views bytes, which must outlive it. @param context as for `open`.
   static Input view(std::string_view bytes, const std::string& name,
                     const RunContext* context = nullptr);
@@ -91,6 +98,8 @@ class Input {
   std::size_t size() const { return text_.size(); }
   const std::string& name() const { return name_; }            ///< the printable name
   const std::string& extension() const { return extension_; }  ///< in lower case, with its dot
+  /// The file that was opened; empty for standard input and for bytes from elsewhere.
+  const std::filesystem::path& path() const { return path_; }
   /// The part of an archive or of a mesh that was requested; empty if none was.
   const std::string& member() const { return member_; }
   const RunContext* context() const { return context_; }
@@ -131,6 +140,7 @@ class Input {
   std::string name_;
   std::string extension_;
   std::string member_;
+  std::filesystem::path path_;
   const RunContext* context_ = nullptr;
 };
 
