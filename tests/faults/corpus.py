@@ -19,8 +19,9 @@ import scene_files
 import shapes
 import system
 import truncated
+import volumes
 
 ENTRIES = sorted((*characters.ENTRIES, *cells.ENTRIES, *matrices.ENTRIES, *truncated.ENTRIES,
                   *headers.ENTRIES, *compressed.ENTRIES, *command_lines.ENTRIES, *system.ENTRIES,
                   *shapes.ENTRIES, *barcode_files.ENTRIES, *part_files.ENTRIES,
-                  *scene_files.ENTRIES, *alpha_points.ENTRIES), key=lambda entry: entry.row)
+                  *scene_files.ENTRIES, *alpha_points.ENTRIES, *volumes.ENTRIES), key=lambda entry: entry.row)

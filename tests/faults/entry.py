@@ -71,6 +71,7 @@ FORMS = {
     "npy-distance": Form(".npy", ("--format", "distance")),
     "npz": Form(".npz"),
     "nifti": Form(".nii"),
+    "nrrd": Form(".nrrd"),
     "pgm": Form(".pgm"),
     "png": Form(".png"),
     "off": Form(".off"),

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "libph/src/io/bytes/readers.hpp"
 #include "tests/fuzz/heap_meter.hpp"
 #include "tests/fuzz/round_trip.hpp"
 #include "tests/fuzz/violation.hpp"
@@ -41,6 +42,12 @@ Barcode barcode(const Input& input, const ReadOptions&) { return read_barcode(in
 template <BarcodeFormat format>
 Barcode barcode_of(const Input& input, const ReadOptions&) {
   return read_barcode(input, format);
+}
+
+/// Reads a volume, whose places are not checked here.
+template <auto read>
+Image volume(const Input& input, const ReadOptions& options) {
+  return read(input, options).image;
 }
 
 /// Reads a raw file with a fixed layout. The input must have exactly the size of this layout.
@@ -121,6 +128,7 @@ constexpr std::array kReaders{
     reader<&of_format<Format::pgm>>("pgm", ".pgm"),
     reader<&of_format<Format::dipha>>("dipha", ".dipha"),
     reader<Reads<Image>(&read_nifti)>("nifti", ".nii"),
+    reader<&volume<&detail::read_nrrd>>("nrrd", ".nrrd"),
     reader<&raw>("raw", ".raw"),
     reader<&raw_points>("raw_points", ".bin"),
     reader<Reads<PerseusImage>(&read_perseus)>("perseus", ".perseus"),

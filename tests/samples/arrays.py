@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: MIT
-"""Samples of binary formats: NumPy, NIfTI, DIPHA, PHAT, Ripser's triangle, PGM and PNG."""
+"""Samples of binary formats: NumPy, NIfTI, NRRD, DIPHA, PHAT, Ripser's triangle, PGM and PNG."""
 import struct
 import zipfile
 import zlib
 
 from sample import Sample
 import files
-from files import (GREY, GREY_ALPHA, KINDS, NIFTI_TYPES, PALETTE, RGB, RGBA, gzipped, npy, npy_header,
+from files import (GREY, GREY_ALPHA, KINDS, NIFTI_TYPES, NRRD_TYPES, PALETTE, RGB, RGBA, gzipped, npy, npy_header,
                    npz, packed, png, png_chunk, words)
 
 VALUES = [0, 5, 2, 4, 9, 1]
@@ -64,6 +64,23 @@ NIFTI = [
     nifti_sample("big_endian_f8.nii", ">f8"),
     nifti_sample("volume_i8.nii", "<i8", extents=(3, 1, 2, 1, 1)),
     Sample("u2.nii.gz", "nifti", gzipped(files.nifti("<u2", (3, 2), VALUES)), True),
+]
+
+
+def nrrd_sample(name, descr, extents=(3, 2), values=VALUES, **options):
+    return Sample(name, "nrrd", files.nrrd(descr, extents, values, **options), True)
+
+
+SCANNER = ("space: left-posterior-superior\nspace directions: (1,0,0) (0,0,2.5) none\n"
+           "space origin: (-3,4,0.5)\nkinds: domain domain time\n# by hand\nunits key:=mm\n")
+NRRD = [
+    *(nrrd_sample(f"{kind}.nrrd", "<" + kind) for kind in NRRD_TYPES),
+    nrrd_sample("big_endian_i2.nrrd", ">i2"),
+    nrrd_sample("packed.nrrd", "<u2", encoding="gzip"),
+    nrrd_sample("text.nrrd", "|u1", encoding="text"),
+    nrrd_sample("text_of_floats.nrrd", "<f4", encoding="text", lines="spacings: 1 0.5\n"),
+    nrrd_sample("scanner.nrrd", "|u1", (3, 2, 1), lines=SCANNER),
+    nrrd_sample("at_the_end.nrrd", "|u1", lines="byte skip: -1\n"),
 ]
 
 
@@ -137,4 +154,4 @@ PICTURES = [
     Sample("raw_16.pgm", "image", b"P5\n# deep\n2 2\n65535\n" + b"\0\1\xff\xff\1\0\0\0", True),
 ]
 
-SAMPLES = NUMPY + NIFTI + DIPHA + BINARY + PICTURES
+SAMPLES = NUMPY + NIFTI + NRRD + DIPHA + BINARY + PICTURES

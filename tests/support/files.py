@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Small encoders of the formats that tests write: NumPy, NIfTI, DIPHA, PNG and PCD."""
+"""Small encoders of the formats that tests write: NumPy, NIfTI, NRRD, DIPHA, PNG and PCD."""
 import binascii
 import io
 import struct
@@ -91,6 +91,22 @@ def nifti(descr, extents, values, slope=0.0, intercept=0.0):
     struct.pack_into(order + "3f", header, 108, 352, slope, intercept)
     header[344:348] = b"n+1\0"
     return bytes(header) + packed(descr, values)
+
+
+NRRD_TYPES = {"u1": "uint8", "i2": "short", "i4": "int32", "f4": "float", "f8": "double",
+              "i1": "int8", "u2": "ushort", "u4": "uint", "i8": "int64", "u8": "uint64"}
+
+
+def nrrd(descr, extents, values, encoding="raw", lines=""):
+    """An NRRD file. @param values with the first axis fastest. @param encoding raw, gzip or text.
+    @param lines further lines of the header."""
+    order, kind = descr[0], descr[1:]
+    content = {"raw": lambda: packed(descr, values), "gzip": lambda: gzipped(packed(descr, values)),
+               "text": lambda: "\n".join(map(str, values)).encode()}[encoding]()
+    endian = {"<": "endian: little\n", ">": "endian: big\n"}.get(order, "")
+    return (f"NRRD0004\ntype: {NRRD_TYPES[kind]}\ndimension: {len(extents)}\n"
+            f"sizes: {' '.join(map(str, extents))}\nencoding: {encoding}\n{endian}{lines}\n"
+            ).encode() + content
 
 
 def dipha(*numbers):

@@ -49,7 +49,6 @@ constexpr std::array kMagics{
           {"a Matrix Market file", "write a line i j distance for each pair, counted from 0"}},
     Magic{0, "# vtk DataFile"sv, {"a VTK file", "convert it to PLY, or save the array as .npy"}},
     Magic{128, "DICM"sv, {"a DICOM image", kToVolume}},
-    Magic{0, "NRRD000"sv, {"an NRRD volume", kToVolume}},
     Magic{208, "MAP "sv, {"an MRC volume", kToVolume}},
     Magic{0, "SIMPLE  ="sv, {"a FITS image", kToNpy}},
     Magic{0, "\x89MCAP0\r\n"sv, {"an MCAP recording", kExport}},

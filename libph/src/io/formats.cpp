@@ -106,6 +106,14 @@ ReadResult nifti_result(const Input& input, const ReadOptions& options) {
   result.affine = detail::nifti_affine(input);
   return result;
 }
+ReadResult result_of(detail::Volume volume, std::string_view kind) {
+  ReadResult result = result_of(std::move(volume.image), kind);
+  result.affine = volume.affine;
+  return result;
+}
+ReadResult nrrd_result(const Input& input, const ReadOptions& options) {
+  return result_of(detail::read_nrrd(input, options), "NRRD");
+}
 ReadResult raw_result(const Input& input, const ReadOptions& options) {
   if (!options.raw)
     throw Error(ErrorKind::usage,
@@ -223,6 +231,8 @@ constexpr std::array kFormats{
                "a cubical complex as text: dimension, sizes, values; or one cube per line", "2",
                &perseus_result},
     FormatInfo{Format::nifti, "nifti", "a NIfTI-1 volume in one file", "", &nifti_result},
+    FormatInfo{Format::nrrd, "nrrd", "an NRRD volume, in one file or two", "NRRD0004",
+               &nrrd_result},
     FormatInfo{Format::phat, "phat",
                "a boundary matrix, ascii or binary: one cell per line, "
                "its dimension and facets",

@@ -16,6 +16,7 @@ namespace {
 bool goes_by_blocks(const Input& input, Format format, const ReadOptions& options) {
   switch (format) {
     case Format::nifti:
+    case Format::nrrd:
       return true;
     case Format::raw:
       return options.raw && options.raw->coordinates == 0;

@@ -121,7 +121,7 @@ struct ReadOptions {
   Channel channel = Channel::automatic;  ///< for pictures
   /// For meshes in read_any: vertices at the same position become one vertex.
   bool weld = false;
-  std::optional<RawLayout> raw = {};     ///< used by read_any for Format::raw
+  std::optional<RawLayout> raw = {};  ///< used by read_any for Format::raw
   /// Budget and stop token for an input that is opened by its path; null if there are none. An open
   /// Input has its own context.
   const RunContext* context = nullptr;
@@ -177,8 +177,9 @@ DistanceMatrix read_binary_distances(const Input& input, const ReadOptions& opti
 SparseDistances read_sparse(const std::filesystem::path& path, const ReadOptions& options = {});
 SparseDistances read_sparse(const Input& input, const ReadOptions& options = {});
 
-/// An array of any dimension from NPY, NPZ, PNG, PGM, DIPHA or NIfTI, recognised by content. The
-/// axes are the axes of the file, in C order: a picture has (y, x), DIPHA and NIfTI have (x, y, z).
+/// An array of any dimension from NPY, NPZ, PNG, PGM, DIPHA, NIfTI or NRRD, recognised by content.
+/// The axes are the axes of the file, in C order: a picture has (y, x), and DIPHA, NIfTI and NRRD
+/// have (x, y, z).
 /// +-infinity is legal; NaN is an error or, with NanPolicy::drop, an absent voxel. An array that
 /// would take more than a third of the memory left in the budget stays in its file, or in a
 /// temporary file if its stored form differs from the form in memory; the file must not change
@@ -200,7 +201,8 @@ Image read_nifti(const Input& input, const ReadOptions& options = {});
 Image read_raw(const Input& input, const RawLayout& layout, const ReadOptions& options = {});
 /// Points without a header, layout.coordinates numbers each, as in the files of KITTI; apart from
 /// the bytes to skip, the file must hold nothing else. options.columns chooses among these numbers.
-/// @throws also Error (usage) on a layout without coordinates, with extents or with an unknown type.
+/// @throws also Error (usage) on a layout without coordinates, with extents or with an unknown
+/// type.
 Points read_raw_points(const Input& input, const RawLayout& layout,
                        const ReadOptions& options = {});
 
@@ -295,6 +297,7 @@ enum class Format {
   png,
   perseus,
   nifti,
+  nrrd,
   phat,
   simplices,
   off,
@@ -315,13 +318,13 @@ struct ReadResult {
   std::string description;            ///< such as "1024 points in R^3, CSV"
   std::vector<Message> notes;         ///< assumptions, such as "line 1 is a header: skipped"
   /// For Points: row i is point point_ids[i] of the input. If empty, row i is point i: no point was
-  /// left out. For a welded Mesh: vertex i is vertex point_ids[i] of the input, the first one at its
-  /// position.
+  /// left out. For a welded Mesh: vertex i is vertex point_ids[i] of the input, the first one at
+  /// its position.
   std::vector<Index> point_ids;
   /// For an Image: true for each axis that closes up on itself, according to the file. Empty if no
   /// axis does.
   std::vector<bool> periodic;
-  /// For an Image: the places of its voxels in space, if the file (NIfTI) states them.
+  /// For an Image: the places of its voxels in space, if the file (NIfTI, NRRD) states them.
   std::optional<Affine> affine;
 };
 

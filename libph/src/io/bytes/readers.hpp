@@ -56,6 +56,7 @@ bool is_nifti(const Input& input);
 /// The places of the voxels of a NIfTI file; empty if its numbers are not finite.
 std::optional<Affine> nifti_affine(const Input& input);
 bool is_dipha(const Input& input);
+bool is_nrrd(const Input& input);
 
 /// True if the first bytes contain no control characters except tabs and line ends. Binary formats
 /// begin with an eight-byte count. A count below 2^40 contains NUL bytes, which do not occur in
@@ -79,6 +80,15 @@ Input read_npz_member(const Input& input);
 Image image_of(Raster raster, const Input& input, const ReadOptions& options);
 Image read_png_image(const Input& input, const ReadOptions& options);
 Image read_pgm_image(const Input& input);
+
+/// An image with the places of its voxels in space, if the file states them.
+struct Volume {
+  Image image;
+  std::optional<Affine> affine;
+};
+
+/// Reads an NRRD file. The numbers may be in another file, which the header names.
+Volume read_nrrd(const Input& input, const ReadOptions& options);
 
 /// The type of a DIPHA file, which is the number after the magic number.
 enum class DiphaType : std::int64_t {

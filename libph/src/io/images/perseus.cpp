@@ -6,6 +6,7 @@
 
 #include "libph/src/io/bytes/readers.hpp"
 #include "libph/src/io/tables/array.hpp"
+#include "libph/src/io/tables/cell_stream.hpp"
 #include "ph/barcode.hpp"
 #include "ph/detail/io/table.hpp"
 #include "ph/io/read.hpp"
@@ -21,27 +22,6 @@ constexpr std::size_t kMostVoxelsPerCube = 1024;
 constexpr std::size_t kFreeVoxels = std::size_t{1} << 20;
 // Marks a voxel as absent (see Image::masked).
 constexpr double kAbsent = std::numeric_limits<double>::quiet_NaN();
-
-// Reads the cells of a text one after another, regardless of line ends.
-class CellStream {
- public:
-  explicit CellStream(TextLines& lines) : lines_(lines), cells_(lines) {}
-
-  bool more() {
-    while (!started_ || !cells_.more()) {
-      if (!lines_.next()) return false;
-      cells_.start();
-      started_ = true;
-    }
-    return true;
-  }
-  Cells& cells() { return cells_; }
-
- private:
-  TextLines& lines_;
-  Cells cells_;
-  bool started_ = false;
-};
 
 [[noreturn]] void fail_truncated(const Input& input, std::size_t found, std::size_t expected,
                                  const char* what) {
@@ -76,7 +56,7 @@ void take_missing_cubes(std::vector<double>& values, const ReadOptions& options)
 // Reads sizes, then values, with the first axis fastest.
 PerseusImage read_dense(TextLines& lines, std::size_t axes) {
   const Input& input = lines.input();
-  CellStream stream(lines);
+  detail::CellStream stream(lines);
   PerseusImage result;
   std::optional<std::size_t> count = 1;
   for (std::size_t axis = 0; axis < axes; ++axis) {

@@ -434,7 +434,6 @@ TEST(ReadTable, FilesOfOtherProgramsAreNamedWithAWayOut) {
   const std::vector<Case> cases{
       {zeros.substr(0, 128) + "DICM\2\0", "DICOM", "NIfTI"},
       {zeros.substr(0, 208) + "MAP DA" + zeros, "MRC", "NIfTI"},
-      {"NRRD0004\ntype: float\ndimension: 3\n", "NRRD", "NIfTI"},
       {"ObjectType = Image\nNDims = 3\n", "MetaImage", "NIfTI"},
       {"NDims=3\r\nDimSize=2 2 2\r\n", "MetaImage", "NIfTI"},
       {"SIMPLE  =                    T / conforms\n", "FITS", ".npy"},

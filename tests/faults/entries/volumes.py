@@ -1,0 +1,62 @@
+# SPDX-License-Identifier: MIT
+"""Rows 31 to 38: volumes of microscopy and medicine whose headers are wrong."""
+from arrays import VALUES
+import files
+
+from entry import Entry, bars, refused, taken, with_change
+
+BARS = bars("0,0,inf", "0,1,5")
+
+
+def nrrd(lines="", **options):
+    return files.nrrd(**{"descr": "|u1", "extents": (3, 2), "values": VALUES, "lines": lines,
+                         **options})
+
+
+def nrrd_entries():
+    yield refused(31, "nrrd", "10^12 voxels", nrrd(extents=(10 ** 6, 10 ** 6)), "truncated, found 6")
+    yield refused(31, "nrrd", "10^12 voxels as text",
+                  nrrd(extents=(10 ** 6, 10 ** 6), encoding="text"), "sizes do not fit the file")
+    yield refused(31, "nrrd", "10^12 voxels, packed",
+                  nrrd(extents=(10 ** 6, 10 ** 6), encoding="gzip"), "truncated, found 6")
+    yield refused(32, "nrrd", "2^32 x 2^32", nrrd(extents=(2 ** 32, 2 ** 32)), "more than 2.64")
+    yield refused(32, "nrrd", "2^32 x 2^32 as text",
+                  nrrd(extents=(2 ** 32, 2 ** 32), encoding="text"), "more than 2.64")
+    yield refused(33, "nrrd", "a size", nrrd(extents=(-3, 2)), ":4:8: sizes, found -3 2")
+    yield refused(33, "nrrd", "a size of 0", nrrd(extents=(0, 2)), "sizes, found 0 2")
+    yield refused(33, "nrrd", "bytes to skip", nrrd("byte skip: -2\n"), "byte skip, found -2")
+    yield refused(34, "nrrd", "a size", nrrd(extents=(2 ** 63, 2)), "sizes, found 9223372036854775808")
+    yield refused(35, "nrrd", "sizes and dimension", with_change(nrrd(), b"dimension: 2", b"dimension: 3"),
+                  "expected 3 sizes")
+    yield refused(35, "nrrd", "spacings", nrrd("spacings: 1\n"), "expected 2 numbers")
+    yield refused(35, "nrrd", "directions", nrrd("space directions: (1,0)\n"), "expected 2 vectors")
+    yield refused(35, "nrrd", "kinds", nrrd("kinds: domain\n"), "expected 2 words")
+    yield refused(35, "nrrd", "a field twice", nrrd("type: float\n"), "a second type, expected one; |one: the")
+    yield refused(35, "nrrd", "no endian", with_change(nrrd(descr="<i2"), b"endian: little\n", b""),
+                  "no field endian")
+    yield refused(35, "nrrd", "no sizes", with_change(nrrd(), b"sizes", b"sises"), "no field sizes")
+    yield refused(35, "nrrd", "bytes to skip", nrrd("byte skip: 7\n"), "truncated before the data")
+    yield refused(35, "nrrd", "lines to skip", nrrd("line skip: 1\n"), "truncated before the data")
+    yield refused(38, "nrrd", "type", with_change(nrrd(), b"uint8", b"block"), "type, found block.*npy")
+    yield refused(38, "nrrd", "encoding", with_change(nrrd(), b"raw", b"bzip2"), "raw, gzip or ascii; save")
+    yield refused(38, "nrrd", "version", with_change(nrrd(), b"NRRD0004", b"NRRD0009"), "NRRD version")
+    yield refused(38, "nrrd", "colours", nrrd("kinds: RGB-color domain\n"), "take one component of axis 0")
+    yield refused(38, "nrrd", "a line", nrrd("by hand\n"), ":6:1: NRRD header, found .by hand")
+    yield refused(38, "nrrd", "text out of range",
+                  nrrd(values=[0, 1, 2, 3, 4, 256], encoding="text"), "number, found 256|out of range|0 to 255")
+    yield refused(38, "nrrd", "text with a fraction",
+                  nrrd(values=[0, 1, 2, 3, 4, 0.5], encoding="text"), "not an integer|integer")
+    yield taken(38, "nrrd", "an unknown field", nrrd("colour: red\n"), BARS,
+                note="line 6: the field colour is not used")
+    header = with_change(nrrd(values=[], lines="data file: input.raw\n"), b"\n\n", b"\n")
+    yield Entry(54, "nrrd: the file of the data is missing", "ph-barcode", ("a.nhdr",), 66,
+                "cannot open", "input.raw", {"a.nhdr": header})
+    yield Entry(51, "nrrd: the file of the data is a folder", "ph-barcode", ("a.nhdr",), 66,
+                "it is a directory", ".", {"a.nhdr": with_change(header, b"input.raw", b".")})
+    yield Entry(38, "nrrd: many files of data", "ph-barcode", ("a.nhdr",), 65,
+                "expected one file; join", "a.nhdr", {"a.nhdr": with_change(header, b"input.raw", b"LIST")})
+    yield Entry(26, "nrrd: the file of the data is too short", "ph-barcode", ("a.nhdr",), 65,
+                "truncated, found 5 bytes, expected 6", "input.raw", {"a.nhdr": header, "input.raw": bytes(5)})
+
+
+ENTRIES = [*nrrd_entries()]
