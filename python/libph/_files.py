@@ -112,7 +112,8 @@ def read(path: str | os.PathLike[str], format: str | None = None, *,
     -------
     ndarray, coo_array, Simplices, Boundary or Mesh
         Points (n, d), distances (n, n), an image, or sparse distances, depending on the file. An
-        image whose file (NIfTI, NRRD) states the places of its voxels is a `SpatialImage`.
+        image whose file (NIfTI, NRRD, MetaImage) states the places of its voxels is a
+        `SpatialImage`.
     """
     return _answer(found_by(**locals()))
 

@@ -72,6 +72,7 @@ FORMS = {
     "npz": Form(".npz"),
     "nifti": Form(".nii"),
     "nrrd": Form(".nrrd"),
+    "metaimage": Form(".mha"),
     "pgm": Form(".pgm"),
     "png": Form(".png"),
     "off": Form(".off"),

@@ -129,6 +129,7 @@ constexpr std::array kReaders{
     reader<&of_format<Format::dipha>>("dipha", ".dipha"),
     reader<Reads<Image>(&read_nifti)>("nifti", ".nii"),
     reader<&volume<&detail::read_nrrd>>("nrrd", ".nrrd"),
+    reader<&volume<&detail::read_meta_image>>("metaimage", ".mha"),
     reader<&raw>("raw", ".raw"),
     reader<&raw_points>("raw_points", ".bin"),
     reader<Reads<PerseusImage>(&read_perseus)>("perseus", ".perseus"),

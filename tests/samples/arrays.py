@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: MIT
-"""Samples of binary formats: NumPy, NIfTI, NRRD, DIPHA, PHAT, Ripser's triangle, PGM and PNG."""
+"""Samples of binary formats: NumPy, NIfTI, NRRD, MetaImage, DIPHA, PHAT, Ripser's triangle, PGM and PNG."""
 import struct
 import zipfile
 import zlib
 
 from sample import Sample
 import files
-from files import (GREY, GREY_ALPHA, KINDS, NIFTI_TYPES, NRRD_TYPES, PALETTE, RGB, RGBA, gzipped, npy, npy_header,
+from files import (GREY, GREY_ALPHA, KINDS, META_TYPES, NIFTI_TYPES, NRRD_TYPES, PALETTE, RGB, RGBA, gzipped, npy, npy_header,
                    npz, packed, png, png_chunk, words)
 
 VALUES = [0, 5, 2, 4, 9, 1]
@@ -84,6 +84,21 @@ NRRD = [
 ]
 
 
+def meta_sample(name, descr, extents=(3, 2), values=VALUES, **options):
+    return Sample(name, "metaimage", files.meta_image(descr, extents, values, **options), True)
+
+
+META_IMAGE = [
+    *(meta_sample(f"{kind}.mha", "<" + kind) for kind in META_TYPES),
+    meta_sample("big_endian_i2.mha", ">i2"),
+    meta_sample("packed.mha", "<u2", encoding="gzip"),
+    meta_sample("text.mha", "|u1", encoding="text"),
+    meta_sample("placed.mha", "|u1", (3, 2, 1), lines="ElementSpacing = 1 0.5 2\nOffset = -3 4 0.5\n"
+                "TransformMatrix = 1 0 0 0 0 1 0 1 0\nAnatomicalOrientation = RAI\n"),
+    meta_sample("at_the_end.mha", "|u1", lines="HeaderSize = -1\nComment = by hand\n"),
+]
+
+
 def dipha(name, reader, *numbers):
     return Sample(name, reader, files.dipha(*numbers), True)
 
@@ -154,4 +169,4 @@ PICTURES = [
     Sample("raw_16.pgm", "image", b"P5\n# deep\n2 2\n65535\n" + b"\0\1\xff\xff\1\0\0\0", True),
 ]
 
-SAMPLES = NUMPY + NIFTI + NRRD + DIPHA + BINARY + PICTURES
+SAMPLES = NUMPY + NIFTI + NRRD + META_IMAGE + DIPHA + BINARY + PICTURES

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Small encoders of the formats that tests write: NumPy, NIfTI, NRRD, DIPHA, PNG and PCD."""
+"""Small encoders of the formats that tests write: NumPy, NIfTI, NRRD, MetaImage,
+DIPHA, PNG and PCD."""
 import binascii
 import io
 import struct
@@ -106,6 +107,22 @@ def nrrd(descr, extents, values, encoding="raw", lines=""):
     endian = {"<": "endian: little\n", ">": "endian: big\n"}.get(order, "")
     return (f"NRRD0004\ntype: {NRRD_TYPES[kind]}\ndimension: {len(extents)}\n"
             f"sizes: {' '.join(map(str, extents))}\nencoding: {encoding}\n{endian}{lines}\n"
+            ).encode() + content
+
+
+META_TYPES = {"u1": "UCHAR", "i2": "SHORT", "i4": "INT", "f4": "FLOAT", "f8": "DOUBLE", "i1": "CHAR",
+              "u2": "USHORT", "u4": "UINT", "i8": "LONG_LONG", "u8": "ULONG_LONG"}
+
+
+def meta_image(descr, extents, values, encoding="raw", lines=""):
+    """A MetaImage in one file. The parameters have the meaning that they have in `nrrd`."""
+    content = {"raw": lambda: packed(descr, values), "gzip": lambda: zlib.compress(packed(descr, values)),
+               "text": lambda: "\n".join(map(str, values)).encode()}[encoding]()
+    lines += {"raw": "", "gzip": "CompressedData = True\n", "text": "BinaryData = False\n"}[encoding]
+    if descr[0] == ">":
+        lines += "ElementByteOrderMSB = True\n"
+    return (f"ObjectType = Image\nNDims = {len(extents)}\nDimSize = {' '.join(map(str, extents))}\n"
+            f"ElementType = MET_{META_TYPES[descr[1:]]}\n{lines}ElementDataFile = LOCAL\n"
             ).encode() + content
 
 

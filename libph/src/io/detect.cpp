@@ -15,12 +15,17 @@ struct Magic {
   Format format;
   bool (*is_at_start)(const Input&);
 };
-constexpr std::array kMagics{
-    Magic{Format::npy, &detail::is_npy},     Magic{Format::png, &detail::is_png},
-    Magic{Format::pcd, &detail::is_pcd},     Magic{Format::ply, &detail::is_ply},
-    Magic{Format::off, &detail::is_off},     Magic{Format::npz, &detail::is_npz},
-    Magic{Format::dipha, &detail::is_dipha}, Magic{Format::pgm, &detail::is_pgm},
-    Magic{Format::nifti, &detail::is_nifti}, Magic{Format::nrrd, &detail::is_nrrd}};
+constexpr std::array kMagics{Magic{Format::npy, &detail::is_npy},
+                             Magic{Format::png, &detail::is_png},
+                             Magic{Format::pcd, &detail::is_pcd},
+                             Magic{Format::ply, &detail::is_ply},
+                             Magic{Format::off, &detail::is_off},
+                             Magic{Format::npz, &detail::is_npz},
+                             Magic{Format::dipha, &detail::is_dipha},
+                             Magic{Format::pgm, &detail::is_pgm},
+                             Magic{Format::nifti, &detail::is_nifti},
+                             Magic{Format::nrrd, &detail::is_nrrd},
+                             Magic{Format::metaimage, &detail::is_meta_image}};
 
 // Finds the format by its magic number.
 std::optional<Format> by_magic(const Input& input) {
@@ -53,6 +58,7 @@ std::optional<Format> by_extension(const Input& input) {
   if (extension == ".npz") return Format::npz;
   if (extension == ".nii" || extension == ".hdr") return Format::nifti;
   if (extension == ".nrrd" || extension == ".nhdr") return Format::nrrd;
+  if (extension == ".mha" || extension == ".mhd") return Format::metaimage;
   // Files with these extensions must begin with a magic number. If it is missing, the start of the
   // file is damaged, and the reader of the format will report this.
   if (extension == ".pcd") return Format::pcd;

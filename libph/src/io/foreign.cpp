@@ -150,15 +150,6 @@ std::optional<ForeignKind> xml_kind(std::string_view bytes) {
   return ForeignKind{"an XML file", "write the numbers as text or as .npy"};
 }
 
-// True if the bytes begin like the header of a MetaImage volume, in one file (MHA) or two (MHD).
-bool is_meta_image(std::string_view bytes) {
-  const std::string_view first = take_line(bytes);
-  const std::size_t end = first.find_first_of(" =");
-  const std::string_view key = first.substr(0, end);
-  return end != std::string_view::npos && first.find('=') != std::string_view::npos &&
-         (key == "ObjectType" || key == "NDims");
-}
-
 // True if the file is an STL mesh. A text begins with "solid" and has "facet normal" in it. A
 // binary file has a header of 80 bytes, then the number of triangles.
 bool is_stl(std::string_view bytes, std::size_t size) {
@@ -186,7 +177,6 @@ std::optional<ForeignKind> foreign_kind(std::string_view bytes) {
   if (is_picture(bytes, {"P3", "P6"})) return ForeignKind{"a PPM picture", kToPng};
   if (is_picture(bytes, {"P1", "P4"})) return ForeignKind{"a PBM picture", kToPng};
   if (is_picture(bytes, {"PF", "Pf"})) return ForeignKind{"a PFM picture", kToNpy};
-  if (is_meta_image(bytes)) return ForeignKind{"a MetaImage volume", kToVolume};
   if (const auto kind = xml_kind(bytes)) return kind;
   if (is_ptx(bytes)) return ForeignKind{"a PTX scan", kToCloud};
   if (is_obj(bytes)) return ForeignKind{"an OBJ mesh", kToMesh};

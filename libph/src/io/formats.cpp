@@ -114,6 +114,9 @@ ReadResult result_of(detail::Volume volume, std::string_view kind) {
 ReadResult nrrd_result(const Input& input, const ReadOptions& options) {
   return result_of(detail::read_nrrd(input, options), "NRRD");
 }
+ReadResult meta_image_result(const Input& input, const ReadOptions& options) {
+  return result_of(detail::read_meta_image(input, options), "MetaImage");
+}
 ReadResult raw_result(const Input& input, const ReadOptions& options) {
   if (!options.raw)
     throw Error(ErrorKind::usage,
@@ -233,6 +236,8 @@ constexpr std::array kFormats{
     FormatInfo{Format::nifti, "nifti", "a NIfTI-1 volume in one file", "", &nifti_result},
     FormatInfo{Format::nrrd, "nrrd", "an NRRD volume, in one file or two", "NRRD0004",
                &nrrd_result},
+    FormatInfo{Format::metaimage, "metaimage", "a MetaImage volume, in one file or two",
+               "ObjectType = Image", &meta_image_result},
     FormatInfo{Format::phat, "phat",
                "a boundary matrix, ascii or binary: one cell per line, "
                "its dimension and facets",

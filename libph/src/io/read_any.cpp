@@ -17,6 +17,7 @@ bool goes_by_blocks(const Input& input, Format format, const ReadOptions& option
   switch (format) {
     case Format::nifti:
     case Format::nrrd:
+    case Format::metaimage:
       return true;
     case Format::raw:
       return options.raw && options.raw->coordinates == 0;

@@ -11,7 +11,7 @@ import sys
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../support"))
 import program  # noqa: E402
 from program import SQUARE_CSV, ProgramTest  # noqa: E402
-from files import dipha, nifti, nrrd  # noqa: E402
+from files import dipha, meta_image, nifti, nrrd  # noqa: E402
 
 DISTANCES = "0 1 2 1.5\n1 0 1.25 2\n2 1.25 0 1\n1.5 2 1 0\n"
 
@@ -19,7 +19,7 @@ DISTANCES = "0 1 2 1.5\n1 0 1.25 2\n2 1.25 0 1\n1.5 2 1 0\n"
 class Formats(ProgramTest):
     def test_table(self):
         text = self.expect(0, "--formats").stdout
-        for name in ("points", "sparse", "dipha", "npz", "nifti", "nrrd", "perseus", "json", "ripser"):
+        for name in ("points", "sparse", "dipha", "npz", "nifti", "nrrd", "metaimage", "perseus", "json", "ripser"):
             self.assertRegex(text, rf"(?m)^  {name} +\S")
 
     def bars(self, name, content, *options):
@@ -45,6 +45,8 @@ class Formats(ProgramTest):
         self.assertEqual(self.bars("a.nii.gz", gzip.compress(volume)), expected)
         for encoding in ("raw", "gzip", "text"):
             self.assertEqual(self.bars("a.nrrd", nrrd("|u1", (3, 2, 1), values, encoding)), expected)
+            volume = meta_image("|u1", (3, 2, 1), values, encoding)
+            self.assertEqual(self.bars("a.mha", volume), expected)
 
     def test_one_set_of_distances_in_many_formats(self):
         rows = [[float(d) for d in line.split()] for line in DISTANCES.splitlines()]

@@ -270,6 +270,8 @@ def inputs(Input, program):
         nan=files.nifti("<f4", (3, 3, 3), [math.nan, *volume[1:]]))
     add("NRRD", ["v.nrrd"], {"v.nrrd": files.nrrd("<f4", (3, 3, 3), volume)}, 4,
         nan=files.nrrd("<f4", (3, 3, 3), [math.nan, *volume[1:]]))
+    add("MetaImage", ["v.mha"], {"v.mha": files.meta_image("<f4", (3, 3, 3), volume)}, 4,
+        nan=files.meta_image("<f4", (3, 3, 3), [math.nan, *volume[1:]]))
     words = struct.pack("<20H", *(random.randrange(60000) for _ in range(20)))
     add("raw", ["i.raw", "--raw-shape", "4,5", "--raw-type", "uint16"], {"i.raw": words}, 30000)
     add("raw points", ["p.bin", "--raw-points", "2", "--raw-type", "float64"],

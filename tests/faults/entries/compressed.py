@@ -8,7 +8,7 @@ import zlib
 
 from arrays import GRID, VALUES
 from clouds import CORNERS, TRIANGLE, XYZ, columns, floats, ply_header
-from files import (GREY, PNG_SIGNATURE, gzipped, lzf, nifti, nrrd, npy, npz, pcd_header, png, png_chunk)
+from files import (GREY, PNG_SIGNATURE, gzipped, lzf, meta_image, nifti, nrrd, npy, npz, pcd_header, png, png_chunk)
 
 from entry import refused, sample, with_bytes, with_change
 
@@ -131,10 +131,12 @@ def bombs():
     bomb = zeros(256)
     yield refused(40, "gzip", "256 MiB", bomb, too_much)
     yield refused(40, "gzip", "256 MiB behind a small member", gzipped(TEXT) + bomb, too_much)
-    for form in ("npy", "nifti", "nrrd", "pcd", "ply", "dipha"):
+    for form in ("npy", "nifti", "nrrd", "metaimage", "pcd", "ply", "dipha"):
         yield refused(40, form, "256 MiB", bomb, too_much)
     yield refused(40, "nrrd", "256 MiB of voxels",
                   nrrd("|u1", (1 << 28,), [], "gzip") + bomb, too_much)
+    yield refused(40, "metaimage", "256 MiB of voxels",
+                  meta_image("|u1", (1 << 28,), [], lines="CompressedData = 1\n") + bomb, too_much)
     # The gzip trailer states a size that is too small. Unpacking still stops, at the larger of 128
     # MiB and 256 times the packed size. Here, this is 128 MiB.
     yield refused(40, "gzip", "256 MiB, said to be 1", with_bytes(bomb, -4, b"\1\0\0\0"), too_much,
@@ -178,6 +180,9 @@ def trailing():
             ("npy", GRID + b"\0"),
             ("npz", npz({"a.npy": GRID}) + b"\0"),
             ("nifti", nifti("|u1", (3, 2), VALUES) + b"\0"),
+            ("metaimage", meta_image("|u1", (3, 2), VALUES) + b"\0"),
+            ("metaimage", meta_image("|u1", (3, 2), VALUES, "gzip") + b"\0"),
+            ("metaimage", meta_image("|u1", (3, 2), VALUES, "text") + b" 7"),
             ("nrrd", nrrd("|u1", (3, 2), VALUES) + b"\0"),
             ("nrrd", nrrd("|u1", (3, 2), VALUES, "gzip") + b"\0"),
             ("nrrd", nrrd("|u1", (3, 2), VALUES, "text") + b" 7"),

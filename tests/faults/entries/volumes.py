@@ -49,14 +49,61 @@ def nrrd_entries():
     yield taken(38, "nrrd", "an unknown field", nrrd("colour: red\n"), BARS,
                 note="line 6: the field colour is not used")
     header = with_change(nrrd(values=[], lines="data file: input.raw\n"), b"\n\n", b"\n")
-    yield Entry(54, "nrrd: the file of the data is missing", "ph-barcode", ("a.nhdr",), 66,
-                "cannot open", "input.raw", {"a.nhdr": header})
-    yield Entry(51, "nrrd: the file of the data is a folder", "ph-barcode", ("a.nhdr",), 66,
-                "it is a directory", ".", {"a.nhdr": with_change(header, b"input.raw", b".")})
+    yield Entry(54, "nrrd: the file of the data is missing", "ph-barcode", ("a.nhdr",), 65,
+                "found input.raw, expected the name.*cannot open", "a.nhdr", {"a.nhdr": header})
+    yield Entry(51, "nrrd: the file of the data is a folder", "ph-barcode", ("a.nhdr",), 65,
+                "it is a directory", "a.nhdr", {"a.nhdr": with_change(header, b"input.raw", b".")})
     yield Entry(38, "nrrd: many files of data", "ph-barcode", ("a.nhdr",), 65,
                 "expected one file; join", "a.nhdr", {"a.nhdr": with_change(header, b"input.raw", b"LIST")})
     yield Entry(26, "nrrd: the file of the data is too short", "ph-barcode", ("a.nhdr",), 65,
                 "truncated, found 5 bytes, expected 6", "input.raw", {"a.nhdr": header, "input.raw": bytes(5)})
 
 
-ENTRIES = [*nrrd_entries()]
+def meta(lines="", **options):
+    return files.meta_image(**{"descr": "|u1", "extents": (3, 2), "values": VALUES, "lines": lines,
+                               **options})
+
+
+def meta_entries():
+    form = "metaimage"
+    huge = (10 ** 6, 10 ** 6)
+    yield refused(31, form, "10^12 voxels", meta(extents=huge), "truncated, found 6")
+    yield refused(31, form, "10^12 voxels as text", meta(extents=huge, encoding="text"),
+                  "sizes do not fit the file")
+    yield refused(31, form, "10^12 voxels, packed", meta(extents=huge, encoding="gzip"),
+                  "truncated, found 6")
+    yield refused(32, form, "2^32 x 2^32", meta(extents=(2 ** 32, 2 ** 32)), "more than 2.64")
+    yield refused(33, form, "a size", meta(extents=(-3, 2)), ":3:11: DimSize, found -3 2")
+    yield refused(33, form, "bytes to skip", meta("HeaderSize = -2\n"), "HeaderSize, found -2")
+    yield refused(34, form, "a size", meta(extents=(2 ** 63, 2)), "DimSize, found 9223372036854775808")
+    yield refused(35, form, "sizes and axes", with_change(meta(), b"NDims = 2", b"NDims = 3"),
+                  "expected 3 sizes")
+    yield refused(35, form, "spacings", meta("ElementSpacing = 1\n"), "expected 2 numbers")
+    yield refused(35, form, "matrix", meta("TransformMatrix = 1 0 1\n"), "expected 4 numbers")
+    yield refused(35, form, "a field with two names", meta("Offset = 0 0\nOrigin = 0 0\n"),
+                  "a second Origin, expected one; |one: the|a second Origin")
+    yield refused(35, form, "packed size", meta("CompressedDataSize = 99\n", encoding="gzip"),
+                  "truncated, found 14 bytes, expected 99")
+    yield refused(35, form, "bytes to skip", meta("HeaderSize = 7\n"), "truncated before the data")
+    yield refused(35, form, "no type", with_change(meta(), b"ElementType", b"ElemenType"),
+                  "no field ElementType")
+    yield refused(38, form, "type", with_change(meta(), b"MET_UCHAR", b"MET_STRING"),
+                  "ElementType, found MET_STRING")
+    yield refused(38, form, "channels", meta("ElementNumberOfChannels = 3\n"),
+                  "one number per voxel; save one channel")
+    yield refused(38, form, "kind of object", with_change(meta(), b"Image", b"Tube"), "found Tube")
+    yield refused(38, form, "a word", meta("CompressedData = maybe\n"), "expected True or False")
+    yield refused(38, form, "a list of slices", with_change(meta(), b"LOCAL", b"LIST"),
+                  "LOCAL or one file; join the slices")
+    yield refused(38, form, "a pattern of slices", with_change(meta(), b"LOCAL", b"s%03d.raw 1 9 1"),
+                  "LOCAL or one file; join the slices")
+    yield taken(38, form, "an unknown field", meta("Colour = red\n"), BARS,
+                note="line 5: the field Colour is not used")
+    header = with_change(meta(values=[]), b"LOCAL", b"input.raw")
+    yield Entry(54, f"{form}: the file of the data is missing", "ph-barcode", ("a.mhd",), 65,
+                "found input.raw, expected the name.*cannot open", "a.mhd", {"a.mhd": header})
+    yield Entry(26, f"{form}: the file of the data is too short", "ph-barcode", ("a.mhd",), 65,
+                "truncated, found 5 bytes, expected 6", "input.raw", {"a.mhd": header, "input.raw": bytes(5)})
+
+
+ENTRIES = [*nrrd_entries(), *meta_entries()]

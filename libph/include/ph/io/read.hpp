@@ -177,9 +177,9 @@ DistanceMatrix read_binary_distances(const Input& input, const ReadOptions& opti
 SparseDistances read_sparse(const std::filesystem::path& path, const ReadOptions& options = {});
 SparseDistances read_sparse(const Input& input, const ReadOptions& options = {});
 
-/// An array of any dimension from NPY, NPZ, PNG, PGM, DIPHA, NIfTI or NRRD, recognised by content.
-/// The axes are the axes of the file, in C order: a picture has (y, x), and DIPHA, NIfTI and NRRD
-/// have (x, y, z).
+/// An array of any dimension from NPY, NPZ, PNG, PGM, DIPHA, NIfTI, NRRD or MetaImage, recognised
+/// by content. The axes are the axes of the file, in C order: a picture has (y, x), and the volumes
+/// of the last four formats have (x, y, z).
 /// +-infinity is legal; NaN is an error or, with NanPolicy::drop, an absent voxel. An array that
 /// would take more than a third of the memory left in the budget stays in its file, or in a
 /// temporary file if its stored form differs from the form in memory; the file must not change
@@ -298,6 +298,7 @@ enum class Format {
   perseus,
   nifti,
   nrrd,
+  metaimage,
   phat,
   simplices,
   off,
@@ -324,7 +325,8 @@ struct ReadResult {
   /// For an Image: true for each axis that closes up on itself, according to the file. Empty if no
   /// axis does.
   std::vector<bool> periodic;
-  /// For an Image: the places of its voxels in space, if the file (NIfTI, NRRD) states them.
+  /// For an Image: the places of its voxels in space, if the file (NIfTI, NRRD, MetaImage) states
+  /// them.
   std::optional<Affine> affine;
 };
 

@@ -57,6 +57,7 @@ bool is_nifti(const Input& input);
 std::optional<Affine> nifti_affine(const Input& input);
 bool is_dipha(const Input& input);
 bool is_nrrd(const Input& input);
+bool is_meta_image(const Input& input);
 
 /// True if the first bytes contain no control characters except tabs and line ends. Binary formats
 /// begin with an eight-byte count. A count below 2^40 contains NUL bytes, which do not occur in
@@ -89,6 +90,9 @@ struct Volume {
 
 /// Reads an NRRD file. The numbers may be in another file, which the header names.
 Volume read_nrrd(const Input& input, const ReadOptions& options);
+/// Reads a MetaImage, the format of ITK. The numbers may be in another file, which the header
+/// names.
+Volume read_meta_image(const Input& input, const ReadOptions& options);
 
 /// The type of a DIPHA file, which is the number after the magic number.
 enum class DiphaType : std::int64_t {

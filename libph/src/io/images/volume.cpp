@@ -46,8 +46,13 @@ Input open_data(const VolumeHeader& header, const HeaderField& field) {
                 "a header from a stream has no folder in which its data may be; read it from its "
                 "own file");
   }
-  return Input::open_stored(input.path().parent_path() / files::path_of(std::string(field.value)),
-                            input.context(), Input::Excess::stays_in_file);
+  const auto path = input.path().parent_path() / files::path_of(std::string(field.value));
+  try {
+    return Input::open_stored(path, input.context(), Input::Excess::stays_in_file);
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::no_input) throw;
+    header.fail(field, "the name of a file, relative to the folder of the header", error.what());
+  }
 }
 
 // The number of bytes that the numbers take, unless it exceeds size_t.

@@ -434,8 +434,6 @@ TEST(ReadTable, FilesOfOtherProgramsAreNamedWithAWayOut) {
   const std::vector<Case> cases{
       {zeros.substr(0, 128) + "DICM\2\0", "DICOM", "NIfTI"},
       {zeros.substr(0, 208) + "MAP DA" + zeros, "MRC", "NIfTI"},
-      {"ObjectType = Image\nNDims = 3\n", "MetaImage", "NIfTI"},
-      {"NDims=3\r\nDimSize=2 2 2\r\n", "MetaImage", "NIfTI"},
       {"SIMPLE  =                    T / conforms\n", "FITS", ".npy"},
       {"PF\n2 1\n-1.0\n" + zeros, "PFM", ".npy"},
       {"Pf\n2 1\n-1.0\n" + zeros, "PFM", ".npy"},
