@@ -75,6 +75,7 @@ FORMS = {
     "metaimage": Form(".mha"),
     "pgm": Form(".pgm"),
     "png": Form(".png"),
+    "tiff": Form(".tif"),
     "off": Form(".off"),
     "gzip": Form(".txt.gz"),
     "pcd": Form(".pcd", (), "ph-segment"),

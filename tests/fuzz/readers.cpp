@@ -128,6 +128,7 @@ constexpr std::array kReaders{
     reader<&of_format<Format::pgm>>("pgm", ".pgm"),
     reader<&of_format<Format::dipha>>("dipha", ".dipha"),
     reader<Reads<Image>(&read_nifti)>("nifti", ".nii"),
+    reader<&detail::read_tiff_image>("tiff", ".tif"),
     reader<&volume<&detail::read_nrrd>>("nrrd", ".nrrd"),
     reader<&volume<&detail::read_meta_image>>("metaimage", ".mha"),
     reader<&raw>("raw", ".raw"),

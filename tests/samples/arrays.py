@@ -6,6 +6,8 @@ import zlib
 
 from sample import Sample
 import files
+import tiff_files
+from tiff_files import page, tiff
 from files import (GREY, GREY_ALPHA, KINDS, META_TYPES, NIFTI_TYPES, NRRD_TYPES, PALETTE, RGB, RGBA, gzipped, npy, npy_header,
                    npz, packed, png, png_chunk, words)
 
@@ -169,4 +171,21 @@ PICTURES = [
     Sample("raw_16.pgm", "image", b"P5\n# deep\n2 2\n65535\n" + b"\0\1\xff\xff\1\0\0\0", True),
 ]
 
-SAMPLES = NUMPY + NIFTI + NRRD + META_IMAGE + DIPHA + BINARY + PICTURES
+DEEP = [k * k % 251 for k in range(300)]
+TIFF = [Sample(name + ".tif", "tiff", content, True) for name, content in (
+    *((kind, tiff([page("<" + kind, (2, 3), VALUES)])) for kind in KINDS if kind != "b1"),
+    ("big_endian_i2", tiff([page(">i2", (2, 3), VALUES)], ">")),
+    ("bigtiff_f8", tiff([page("<f8", (2, 3), VALUES)], big=True)),
+    ("bilevel", tiff([page("|u1", (2, 1), [0xA0, 0x40], t256=3, t258=1)])),
+    ("lzw", tiff([page("|u1", (15, 20), DEEP, tiff_files.LZW)])),
+    ("deflate", tiff([page("<u2", (2, 3), VALUES, tiff_files.DEFLATE, t317=2)])),
+    ("old_deflate", tiff([page("<u4", (2, 3), VALUES, tiff_files.OLD_DEFLATE)])),
+    ("float_bytes", tiff([page("<f4", (2, 3), [0] * 6, tiff_files.DEFLATE, t317=3)])),
+    ("pack_bits", tiff([page("|u1", (2, 3), [0, 0, 0, 4, 9, 9], tiff_files.PACK_BITS)])),
+    ("tiles", tiff([page("|u1", (2, 3), VALUES, chunk=(1, 2))])),
+    ("pages", tiff([page("|u1", (1, 3), VALUES[:3]), page("|u1", (1, 3), VALUES[3:])])),
+    ("reduced", tiff([page("|u1", (2, 3), VALUES), page("|u1", (1, 1), [3], t254=1)])),
+    ("grey_alpha", tiff([page("|u1", (1, 2), [1, 255, 2, 255], t338=1)])),
+)]
+
+SAMPLES = NUMPY + NIFTI + NRRD + META_IMAGE + DIPHA + BINARY + PICTURES + TIFF

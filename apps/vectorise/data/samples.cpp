@@ -13,7 +13,8 @@
 namespace ph::vectorise {
 namespace {
 
-constexpr std::array<std::string_view, 5> kImages{".png", ".pgm", ".nii", ".npz", ".grid"};
+constexpr std::array<std::string_view, 11> kImages{
+    ".png", ".pgm", ".tif", ".tiff", ".nii", ".nrrd", ".nhdr", ".mha", ".mhd", ".npz", ".grid"};
 
 Cubical read_cubical(const Input& input, CubicalOptions cubical, const Arguments& arguments,
                      app::Session& session) {

@@ -25,7 +25,8 @@ constexpr std::array kMagics{Magic{Format::npy, &detail::is_npy},
                              Magic{Format::pgm, &detail::is_pgm},
                              Magic{Format::nifti, &detail::is_nifti},
                              Magic{Format::nrrd, &detail::is_nrrd},
-                             Magic{Format::metaimage, &detail::is_meta_image}};
+                             Magic{Format::metaimage, &detail::is_meta_image},
+                             Magic{Format::tiff, &detail::is_tiff}};
 
 // Finds the format by its magic number.
 std::optional<Format> by_magic(const Input& input) {
@@ -67,6 +68,7 @@ std::optional<Format> by_extension(const Input& input) {
   if (extension == ".npy") return Format::npy;
   if (extension == ".png") return Format::png;
   if (extension == ".pgm") return Format::pgm;
+  if (extension == ".tif" || extension == ".tiff") return Format::tiff;
   return std::nullopt;
 }
 

@@ -28,10 +28,6 @@ constexpr std::string_view kUnpack = "unpack it first, or use gzip";
 
 constexpr std::array kMagics{
     Magic{0, "\xFF\xD8\xFF"sv, {"a JPEG picture", kToPng}},
-    Magic{0, "II*\0"sv, {"a TIFF picture", "convert it to PNG, or save the array as .npy"}},
-    Magic{0, "MM\0*"sv, {"a TIFF picture", "convert it to PNG, or save the array as .npy"}},
-    Magic{0, "II+\0"sv, {"a BigTIFF picture", kToNpy}},
-    Magic{0, "MM\0+"sv, {"a BigTIFF picture", kToNpy}},
     Magic{8, "WEBP"sv, {"a WebP picture", kToPng}},
     Magic{0, "GIF8"sv, {"a GIF picture", kToPng}},
     Magic{0, "\0\0\0\x0CjP  "sv, {"a JPEG 2000 picture", kToPng}},

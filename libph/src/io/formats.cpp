@@ -176,6 +176,9 @@ ReadResult npz_result(const Input& input, const ReadOptions& options) {
 ReadResult png_result(const Input& input, const ReadOptions& options) {
   return result_of(detail::read_png_image(input, options), "PNG");
 }
+ReadResult tiff_result(const Input& input, const ReadOptions& options) {
+  return result_of(detail::read_tiff_image(input, options), "TIFF");
+}
 ReadResult phat_result(const Input& input, const ReadOptions& options) {
   BoundaryInput boundary = read_phat(input, options);
   const char* kind = boundary.binary ? "PHAT binary" : "PHAT ascii";
@@ -230,6 +233,10 @@ constexpr std::array kFormats{
                "a picture: grey, or one \x1e"
                "channel\x1f of it",
                "", &png_result},
+    FormatInfo{Format::tiff, "tiff",
+               "a picture, or a volume of one page per slice: grey, or one \x1e"
+               "channel\x1f of it",
+               "", &tiff_result},
     FormatInfo{Format::perseus, "perseus",
                "a cubical complex as text: dimension, sizes, values; or one cube per line", "2",
                &perseus_result},

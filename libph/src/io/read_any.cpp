@@ -18,6 +18,7 @@ bool goes_by_blocks(const Input& input, Format format, const ReadOptions& option
     case Format::nifti:
     case Format::nrrd:
     case Format::metaimage:
+    case Format::tiff:
       return true;
     case Format::raw:
       return options.raw && options.raw->coordinates == 0;
@@ -127,8 +128,8 @@ void check_part(const Input& input, Format format, const ReadOptions& options) {
                         (format == Format::raw && options.raw && options.raw->coordinates != 0);
   if (!options.columns.empty() && !is_table)
     refuse(Setting::columns, "tables of numbers (text, NPY, NPZ or raw points)");
-  if (options.channel != Channel::automatic && format != Format::png)
-    refuse(Setting::channel, "PNG pictures");
+  if (options.channel != Channel::automatic && format != Format::png && format != Format::tiff)
+    refuse(Setting::channel, "PNG and TIFF pictures");
   if (options.weld && format != Format::off && format != Format::ply)
     refuse(Setting::weld, "meshes (OFF or PLY)");
   if (format == Format::ply && !input.member().empty()) {

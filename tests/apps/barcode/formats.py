@@ -10,6 +10,7 @@ import sys
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../support"))
 import program  # noqa: E402
+from tiff_files import page, tiff  # noqa: E402
 from program import SQUARE_CSV, ProgramTest  # noqa: E402
 from files import dipha, meta_image, nifti, nrrd  # noqa: E402
 
@@ -19,7 +20,7 @@ DISTANCES = "0 1 2 1.5\n1 0 1.25 2\n2 1.25 0 1\n1.5 2 1 0\n"
 class Formats(ProgramTest):
     def test_table(self):
         text = self.expect(0, "--formats").stdout
-        for name in ("points", "sparse", "dipha", "npz", "nifti", "nrrd", "metaimage", "perseus", "json", "ripser"):
+        for name in ("points", "sparse", "dipha", "npz", "nifti", "nrrd", "metaimage", "tiff", "perseus", "json", "ripser"):
             self.assertRegex(text, rf"(?m)^  {name} +\S")
 
     def bars(self, name, content, *options):
@@ -45,6 +46,8 @@ class Formats(ProgramTest):
         self.assertEqual(self.bars("a.nii.gz", gzip.compress(volume)), expected)
         for encoding in ("raw", "gzip", "text"):
             self.assertEqual(self.bars("a.nrrd", nrrd("|u1", (3, 2, 1), values, encoding)), expected)
+            picture = tiff([page("|u1", (2, 3), values, {"gzip": 8, "text": 5}.get(encoding, 1))])
+            self.assertEqual(self.bars("a.tif", picture), expected)
             volume = meta_image("|u1", (3, 2, 1), values, encoding)
             self.assertEqual(self.bars("a.mha", volume), expected)
 

@@ -11,6 +11,7 @@ import tempfile
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../support"))
 from program import files  # noqa: E402
+import tiff_files  # noqa: E402
 
 RIPS = ("points", "points.gz", "NPY points", "OFF mesh", "PCD", "XYZ", "matrix", "NPY matrix",
         "DIPHA distances", "lower triangle", "upper triangle", "binary triangle", "sparse",
@@ -272,6 +273,12 @@ def inputs(Input, program):
         nan=files.nrrd("<f4", (3, 3, 3), [math.nan, *volume[1:]]))
     add("MetaImage", ["v.mha"], {"v.mha": files.meta_image("<f4", (3, 3, 3), volume)}, 4,
         nan=files.meta_image("<f4", (3, 3, 3), [math.nan, *volume[1:]]))
+    slices = [tiff_files.page("<f4", (3, 3), volume[k:k + 9]) for k in (0, 9, 18)]
+    nan_slices = [tiff_files.page("<f4", (3, 3), [math.nan, *volume[1:9]]), *slices[1:]]
+    add("TIFF", ["v.tif"], {"v.tif": tiff_files.tiff(slices)}, 4, nan=tiff_files.tiff(nan_slices))
+    add("TIFF in colours", ["i.tif", "--channel", "green"],
+        {"i.tif": tiff_files.tiff([tiff_files.page("|u1", (5, 6), many, t262=2)])}, 40,
+        rows={"--channel": (("--channel", "red"), {})})
     words = struct.pack("<20H", *(random.randrange(60000) for _ in range(20)))
     add("raw", ["i.raw", "--raw-shape", "4,5", "--raw-type", "uint16"], {"i.raw": words}, 30000)
     add("raw points", ["p.bin", "--raw-points", "2", "--raw-type", "float64"],

@@ -1,11 +1,16 @@
 # SPDX-License-Identifier: MIT
 """Rows 31 to 38: volumes of microscopy and medicine whose headers are wrong."""
+import struct
+import zlib
+
 from arrays import VALUES
 import files
+import tiff_files
 
-from entry import Entry, bars, refused, taken, with_change
+from entry import Entry, bars, refused, taken, with_bytes, with_change
 
 BARS = bars("0,0,inf", "0,1,5")
+PICTURE_BARS = BARS  # the same image with its axes exchanged
 
 
 def nrrd(lines="", **options):
@@ -106,4 +111,59 @@ def meta_entries():
                 "truncated, found 5 bytes, expected 6", "input.raw", {"a.mhd": header, "input.raw": bytes(5)})
 
 
-ENTRIES = [*nrrd_entries(), *meta_entries()]
+def tiff(values=VALUES, descr="|u1", shape=(2, 3), compression=tiff_files.NONE, **fields):
+    return tiff_files.tiff([tiff_files.page(descr, shape, values, compression, **fields)])
+
+
+def tiff_entries():
+    tera = 10 ** 6
+    yield refused(31, "tiff", "10^12 pixels", tiff(t256=tera, t257=tera, t278=tera), "truncated: strip 1")
+    yield refused(31, "tiff", "10^12 pixels, packed",
+                  tiff(compression=tiff_files.DEFLATE, t256=tera, t257=tera, t278=tera),
+                  "truncated: strip 1")
+    yield refused(31, "tiff", "10^6 strips", tiff(t257=tera, t278=1), "strips and tiles|offsets of strips")
+    yield refused(32, "tiff", "2^32 x 2^32", tiff(t256=2 ** 32 - 1, t257=2 ** 32 - 1),
+                  "width, found 4294967295")
+    yield refused(32, "tiff", "2^31 x 2^31 of 8 bytes",
+                  tiff([0.0] * 6, "<f8", t256=2 ** 31, t257=2 ** 31, t278=2 ** 31), "fewer pixels|truncated")
+    yield refused(33, "tiff", "width 0", tiff(t256=0), "width, found 0")
+    yield refused(33, "tiff", "rows per strip of 0", tiff(t278=0), "rows per strip, found 0")
+    yield refused(35, "tiff", "too few strips", tiff(t278=1), "offsets of strips, found 1, expected 2")
+    yield refused(35, "tiff", "two bits of samples", tiff(t258=[8, 16]), "found 8 and 16")
+    yield refused(35, "tiff", "pages that differ",
+                  tiff_files.tiff([tiff_files.page("|u1", (2, 3), VALUES),
+                                   tiff_files.page("|u1", (3, 2), VALUES)]),
+                  "page 2, found 2 x 3 pixels of uint8, expected 3 x 2 pixels")
+    whole = tiff()
+    yield refused(35, "tiff", "a page that is its own follower",
+                  with_bytes(whole, -4, struct.pack("<I", whole.index(struct.pack("<HHI", 256, 3, 1)) - 2)),
+                  "a page that came before")
+    yield refused(35, "tiff", "images that are missing", tiff(t270="ImageJ=1\nimages=9\n"),
+                  "is the file truncated")
+    yield refused(38, "tiff", "channels of ImageJ", tiff(t270="ImageJ=1\nimages=2\nchannels=2\n"),
+                  "one number per voxel; save each channel")
+    for code, name in ((7, "JPEG"), (34712, "JPEG 2000"), (50000, "Zstandard"), (3, "CCITT Group 3")):
+        yield refused(38, "tiff", f"compression {code}", tiff(t259=code),
+                      f"compression, found {code} .{name}.*; save it again")
+    yield refused(38, "tiff", "a palette", tiff(t262=3), "a palette of colours")
+    yield refused(38, "tiff", "colours", tiff([1, 2, 3] * 6, t262=2), "grey.*--channel")
+    yield refused(38, "tiff", "complex numbers", tiff([0.0] * 6, "<f8", t339=6), "complex numbers are not")
+    yield refused(38, "tiff", "12 bits", tiff(t258=12), "12 bits")
+    yield refused(38, "tiff", "version", with_bytes(tiff(), 2, b"\x2c"), "not a TIFF file")
+    yield refused(39, "tiff", "LZW", tiff(compression=tiff_files.LZW, t257=3, t278=3),
+                  "truncated data, found 6 bytes, expected 9", frugal=False)
+    yield refused(39, "tiff", "Deflate", with_bytes(tiff(compression=tiff_files.DEFLATE), 9, b"\xff\xff"),
+                  "damaged zlib data")
+    yield refused(39, "tiff", "PackBits", tiff(compression=tiff_files.PACK_BITS, t257=3, t278=3),
+                  "truncated data, found 6 bytes, expected 9")
+    side = 20_000
+    zeros = tiff_files.tiff([({256: side, 257: side, 258: 8, 259: 8, 262: 1, 278: side, 273: None, 279: None},
+                              [zlib.compress(bytes(side * side), 9)])])
+    yield refused(40, "tiff", "381 MiB of pixels", zeros, "expand too much")
+    yield taken(41, "tiff", "more data than a strip needs",
+                tiff_files.tiff([(tiff_files.page("|u1", (2, 3), VALUES)[0], [bytes(VALUES) + b"x"])]),
+                PICTURE_BARS, note="1 strip or tile has more data")
+    yield taken(38, "tiff", "WhiteIsZero", tiff(t262=0), PICTURE_BARS, note="0 is white")
+
+
+ENTRIES = [*nrrd_entries(), *meta_entries(), *tiff_entries()]

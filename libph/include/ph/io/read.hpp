@@ -177,9 +177,9 @@ DistanceMatrix read_binary_distances(const Input& input, const ReadOptions& opti
 SparseDistances read_sparse(const std::filesystem::path& path, const ReadOptions& options = {});
 SparseDistances read_sparse(const Input& input, const ReadOptions& options = {});
 
-/// An array of any dimension from NPY, NPZ, PNG, PGM, DIPHA, NIfTI, NRRD or MetaImage, recognised
-/// by content. The axes are the axes of the file, in C order: a picture has (y, x), and the volumes
-/// of the last four formats have (x, y, z).
+/// An array of any dimension from NPY, NPZ, PNG, PGM, TIFF, DIPHA, NIfTI, NRRD or MetaImage,
+/// recognised by content. The axes are the axes of the file, in C order: a picture has (y, x), the
+/// pages of TIFF have (z, y, x), and the volumes of the last four formats have (x, y, z).
 /// +-infinity is legal; NaN is an error or, with NanPolicy::drop, an absent voxel. An array that
 /// would take more than a third of the memory left in the budget stays in its file, or in a
 /// temporary file if its stored form differs from the form in memory; the file must not change
@@ -295,6 +295,7 @@ enum class Format {
   npy,
   pgm,
   png,
+  tiff,
   perseus,
   nifti,
   nrrd,

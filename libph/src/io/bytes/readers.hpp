@@ -57,6 +57,7 @@ bool is_nifti(const Input& input);
 std::optional<Affine> nifti_affine(const Input& input);
 bool is_dipha(const Input& input);
 bool is_nrrd(const Input& input);
+bool is_tiff(const Input& input);
 bool is_meta_image(const Input& input);
 
 /// True if the first bytes contain no control characters except tabs and line ends. Binary formats
@@ -79,7 +80,11 @@ Input read_npz_member(const Input& input);
 
 /// Makes an image from a PNG, with one number per pixel. The channel is chosen by options.channel.
 Image image_of(Raster raster, const Input& input, const ReadOptions& options);
+/// Throws Error (bad_data), because a picture of this kind does not have the channel.
+[[noreturn]] void refuse_channel(Channel channel, std::string_view kind, const Input& input);
 Image read_png_image(const Input& input, const ReadOptions& options);
+/// Reads a TIFF or BigTIFF file. Several pages become a volume with the axes (z, y, x).
+Image read_tiff_image(const Input& input, const ReadOptions& options);
 Image read_pgm_image(const Input& input);
 
 /// An image with the places of its voxels in space, if the file states them.

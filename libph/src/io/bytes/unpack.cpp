@@ -224,6 +224,26 @@ std::pmr::vector<char> inflate_raw(const Input& input, std::size_t offset, std::
   return bytes;
 }
 
+std::size_t inflate_zlib(const Input& input, std::size_t offset, std::size_t packed_size,
+                         std::span<std::byte> to, bool& more) {
+  Inflater inflater(input.text().substr(offset, packed_size), 15);
+  const std::size_t done = inflater.unpack(reinterpret_cast<char*>(to.data()), to.size());
+  char next = 0;
+  more = done == to.size() && inflater.unpack(&next, 1) == 1;
+  const bool is_whole = inflater.ended() || more;
+  if (!inflater.damage().empty()) {
+    input.fail_at_byte(offset + inflater.used(),
+                       {"damaged zlib data", inflater.damage(), "zlib data", {}});
+  }
+  if (!is_whole) {
+    input.fail_at_byte(offset + packed_size, {"truncated zlib data",
+                                              fmt::format("the end after {} bytes", packed_size),
+                                              "the end of the compressed stream",
+                                              {}});
+  }
+  return done;
+}
+
 std::uint32_t checksum(std::span<const char> bytes) {
   return static_cast<std::uint32_t>(
       crc32_z(crc32_z(0, nullptr, 0), reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));

@@ -46,6 +46,12 @@ ScratchFile unpack_to_file(const Packed& packed);
 std::pmr::vector<char> inflate_raw(const Input& input, std::size_t offset, std::size_t packed_size,
                                    std::size_t size);
 
+/// Unpacks a zlib stream of `packed_size` bytes until `to` is full. `more` becomes true if the
+/// stream has more data. @return the number of bytes written. @throws Error (bad_data) if the
+/// stream is damaged or truncated.
+std::size_t inflate_zlib(const Input& input, std::size_t offset, std::size_t packed_size,
+                         std::span<std::byte> to, bool& more);
+
 /// The CRC-32 checksum of zip and gzip.
 std::uint32_t checksum(std::span<const char> bytes);
 

@@ -50,13 +50,17 @@ std::optional<std::size_t> place_of(Channel channel, const Raster& raster, const
       if (has_colours)
         return static_cast<std::size_t>(channel) - static_cast<std::size_t>(Channel::red);
   }
-  input.fail({fmt::format("no channel {}", name_of(channel)),
-              std::string(kKinds[channels]),
-              "a picture that has it",
-              {}});
+  refuse_channel(channel, kKinds[channels], input);
 }
 
 }  // namespace
+
+void refuse_channel(Channel channel, std::string_view kind, const Input& input) {
+  input.fail({fmt::format("no channel {}", name_of(channel)),
+              std::string(kind),
+              "a picture that has it",
+              {}});
+}
 
 Image read_png_image(const Input& input, const ReadOptions& options) {
   return image_of(read_png(input), input, options);

@@ -216,7 +216,14 @@ bool stays_in_file(const Input& input, std::size_t bytes) {
 
 Image load_array(const Input& input, const ArrayLayout& layout, std::vector<Index> extents,
                  Input::Excess excess) {
-  const std::size_t count = count_elements(input, layout, extents);
+  count_elements(input, layout, extents);
+  return load_elements(input, layout, std::move(extents), excess);
+}
+
+Image load_elements(const Input& input, const ArrayLayout& layout, std::vector<Index> extents,
+                    Input::Excess excess) {
+  std::size_t count = 1;
+  for (const Index extent : extents) count *= static_cast<std::size_t>(extent);
   return with_voxels(layout.type.stored, nullptr, [&]<class T>(const T*) {
     const bool is_large =
         excess == Input::Excess::stays_in_file && stays_in_file(input, count * sizeof(T));

@@ -56,13 +56,18 @@ bool stays_in_file(const Input& input, std::size_t bytes);
 std::size_t count_elements(const Input& input, const ArrayLayout& layout,
                            const std::vector<Index>& extents);
 
-/// Reads an array whose elements are present (see count_elements). The result is in C order.
+/// Reads an array whose elements end at the end of the input (see count_elements). The result is in
+/// C order.
 /// @param excess with Excess::stays_in_file, voxels for which the function stays_in_file() returns
 /// true stay in the input's file, or in a temporary file if they must be converted.
 /// @throws Error (bad_data) on an integer that double cannot represent; Error (resource); Error
 /// (io).
 Image load_array(const Input& input, const ArrayLayout& layout, std::vector<Index> extents,
                  Input::Excess excess = Input::Excess::refused);
+/// The same for an array that may be followed by other bytes. Precondition: the elements are
+/// present.
+Image load_elements(const Input& input, const ArrayLayout& layout, std::vector<Index> extents,
+                    Input::Excess excess);
 
 /// The rows of an array with two axes as points: those of its columns that options.columns chooses.
 /// @throws Error (bad_data) on a number that is not finite; see NanPolicy. Error (resource).
