@@ -68,6 +68,12 @@ constexpr std::array kMetaFields{"ObjectType"sv,
                                  "SequenceID"sv,
                                  "ImagePosition"sv};
 
+bool is_word(std::string_view text) {
+  return !text.empty() && std::ranges::all_of(text, [](char c) {
+    return (to_lower(c) >= 'a' && to_lower(c) <= 'z') || (c >= '0' && c <= '9');
+  });
+}
+
 class MetaImage {
  public:
   MetaImage(const Input& input, const ReadOptions& options) : header_(input), options_(options) {}
@@ -112,17 +118,18 @@ class MetaImage {
       const std::string_view line = header_.line();
       if (line.find_first_not_of(" \t") == std::string_view::npos) continue;
       const std::size_t equals = line.find('=');
-      if (equals == std::string_view::npos) {
-        if (header_.number() == 1)
-          input.fail_at_byte(0, {"not a MetaImage file",
-                                 '"' + printable(line, 20) + '"',
-                                 "a header that begins with ObjectType = Image",
-                                 {}});
+      const bool has_value = equals != std::string_view::npos;
+      if (has_value)
+        key = line.substr(0, std::min(line.find_last_not_of(" \t", equals - 1) + 1, equals));
+      if (header_.number() == 1 && (!has_value || !is_word(key)))
+        input.fail_at_byte(0, {"not a MetaImage file",
+                               '"' + printable(line.substr(0, 20)) + '"',
+                               "a header that begins with ObjectType = Image",
+                               {}});
+      if (!has_value)
         input.fail_at(
             header_.number(), 1,
             {"header of a MetaImage", '"' + printable(line, 40) + '"', "a line FIELD = VALUE", {}});
-      }
-      key = line.substr(0, std::min(line.find_last_not_of(" \t", equals - 1) + 1, equals));
       for (const auto& names : kMetaNames)
         if (std::ranges::count(names, key) > 0) key = names[0];
       header_.add(key, equals);
@@ -213,7 +220,8 @@ class MetaImage {
 }  // namespace
 
 bool is_meta_image(const Input& input) {
-  const std::string_view first = input.text().substr(0, input.text().substr(0, 4096).find('\n'));
+  std::string_view first = input.text().substr(0, 4096);
+  first = first.substr(0, first.find('\n'));
   const std::size_t end = first.find_first_of(" =");
   const std::string_view key = first.substr(0, end);
   return end != std::string_view::npos && first.find('=') != std::string_view::npos &&
