@@ -158,8 +158,9 @@ class Run {
       if (is_sealed_part(start.bytes())) return;  // the message below says more
       (job_.stored ? barcode_start_check() : detail::start_check(job_.reading.format))(start);
     };
-    Input input = Input::open(files::path_of(job_.places.input), &context(),
-                              Input::Excess::stays_in_file, check);
+    Input input =
+        open_input(job_.places.input, job_, context(), Input::Excess::stays_in_file, check);
+    if (job_.reading.options.stack) return input;
     if (is_sealed_part(input.bytes()))
       throw Error(ErrorKind::bad_data, fmt::format("{}: found a part of a result, expected data; "
                                                    "--join makes bars from all parts",

@@ -63,7 +63,7 @@ def read(path: str | os.PathLike[str], format: str | None = None, *,
          from_correlation: bool = False, diagonal: str = "zero", channel: str = "auto",
          raw_shape: Sequence[int] | None = None, raw_points: int | None = None,
          raw_dtype: DTypeLike = None, raw_skip: int = 0, weld: bool = False,
-         **run: Unpack[RunOptions]) -> Any:
+         stack: bool = False, **run: Unpack[RunOptions]) -> Any:
     """Reads a file of points, distances, an image, simplices, a boundary matrix or a mesh.
 
     What libph assumed about the file is reported to the logger "libph", level INFO.
@@ -105,6 +105,9 @@ def read(path: str | os.PathLike[str], format: str | None = None, *,
     weld : bool
         For a mesh (OFF, PLY). If True, vertices at the same position become one vertex, as along the
         seams of a texture. Their values must be equal.
+    stack : bool
+        If True, `path` is a folder. Its PNG, PGM or TIFF pictures are the slices of one volume
+        (z, y, x), in the natural order of their names: "slice2.png" before "slice10.png".
     **run
         `threads`, `memory_limit`, `progress`, `timeout`, `stop`; see `libph`.
 
@@ -120,7 +123,8 @@ def read(path: str | os.PathLike[str], format: str | None = None, *,
 
 def found_by(path: Any, format: Any, values: Any, nan: Any, columns: Any, array: Any,
              symmetrise: Any, from_correlation: Any, diagonal: Any, channel: Any, raw_shape: Any,
-             raw_points: Any, raw_dtype: Any, raw_skip: Any, weld: Any, run: Any) -> dict[str, Any]:
+             raw_points: Any, raw_dtype: Any, raw_skip: Any, weld: Any, stack: Any,
+             run: Any) -> dict[str, Any]:
     """The result of `_core.read` for the arguments of `read`."""
     _run.check_names("read", dict(run), read)
     name = "auto" if format is None else _options.choice("format", format, _core.format_names())
@@ -151,7 +155,7 @@ def found_by(path: Any, format: Any, values: Any, nan: Any, columns: Any, array:
         "raw_type": f"{dtype.kind}{dtype.itemsize}",
         "raw_big_endian": dtype.newbyteorder("=") != dtype,
         "raw_skip": _options.whole("raw_skip", raw_skip, 0),
-        "weld": _options.flag("weld", weld)}
+        "weld": _options.flag("weld", weld), "stack": _options.flag("stack", stack)}
     if columns is not None and not options["columns"]:
         raise _options.refuse("columns", columns, "names or numbers of columns")
     if raw_shape is not None and raw_points is not None:

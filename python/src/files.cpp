@@ -115,6 +115,7 @@ ReadOptions read_options_of(const py::dict& given) {
   options.columns = given["columns"].cast<std::vector<std::string>>();
   options.channel = given["channel"].cast<Channel>();
   options.weld = given["weld"].cast<bool>();
+  options.stack = given["stack"].cast<bool>();
   if (!given["raw_shape"].is_none() || !given["raw_points"].is_none()) {
     RawLayout layout;
     if (!given["raw_shape"].is_none())

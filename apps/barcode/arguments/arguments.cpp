@@ -274,11 +274,12 @@ std::optional<std::string> parse_arguments(int argc, const char* const* argv, Jo
   constexpr std::array<std::string_view, 3> kNotOfResults{"part", "resume", "output"};
   if (job.sharing.part) job.sharing.typed_options = app::given_options(options, kNotOfResults);
   if (job.compare.empty() && !job.is_batch() && !job.sharing.part && !job.sharing.joins &&
-      app::is_folder(job.inputs[0]))
+      app::is_folder(job.inputs[0]) && !job.reading.options.stack)
     throw Error(
         ErrorKind::no_input,
         fmt::format("{}: it is a directory, which is a batch of inputs; give a folder for the "
-                    "results: -o FOLDER/, --plot FOLDER/ or --report FOLDER/",
+                    "results: -o FOLDER/, --plot FOLDER/ or --report FOLDER/; --stack reads the "
+                    "pictures in it as one volume",
                     printable(job.inputs[0])));
   if (!job.places.report.empty()) job.command = app::typed_command("ph-barcode", argc, argv);
   return std::nullopt;

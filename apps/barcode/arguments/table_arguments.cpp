@@ -60,6 +60,10 @@ void add_table_options(app::Options& options, Job& job) {
       "colours is their luma, 0.299 R + 0.587 G + 0.114 B",
       [&job](Channel channel) { job.reading.options.channel = channel; },
       std::span(names_of<Channel>).subspan(1));
+  options.flag({"--stack", kOfInputs.with(kSomeLayers)},
+               "the input is a folder of PNG, PGM or TIFF pictures: they are the slices of one "
+               "volume, in the order of the numbers in their names",
+               [&job] { job.reading.options.stack = true; });
   options.flag({"--weld", kOfMeshes},
                "vertices of the mesh at the same position become one vertex, as along the seams of "
                "a texture",

@@ -67,6 +67,12 @@ void embed(const std::string& name, const Delay& delay, std::size_t dropped,
 
 }  // namespace
 
+Input open_input(const std::string& path, const Job& job, const RunContext& context,
+                 Input::Excess excess, const Input::StartCheck& check) {
+  return job.reading.options.stack ? Input::of_folder(files::path_of(path), &context)
+                                   : Input::open(files::path_of(path), &context, excess, check);
+}
+
 NamedData read_input(const Input& input, const Job& job, const RunContext& context) {
   std::vector<Index> dropped;
   ReadOptions options = job.reading.options;
@@ -82,7 +88,8 @@ NamedData read_input(const Input& input, const Job& job, const RunContext& conte
   if (std::string note = note_on_mesh(read, job); !note.empty())
     read.notes.push_back(std::move(note));
   std::string sha256;
-  if (!job.places.report.empty() && !job.results.dry_run)
+  // A folder has no bytes of its own.
+  if (!job.places.report.empty() && !job.results.dry_run && !options.stack)
     sha256 = report::sha256_hex(input, context);
   return {input.name(), std::move(read), dropped.size(), std::move(sha256)};
 }

@@ -14,7 +14,7 @@ bool Job::draws_tree() const {
 
 bool Job::wants_part_of_one() const {
   return (sharing.part || sharing.on_ranks) && inputs.size() == 1 &&
-         !app::is_folder(inputs.front());
+         (reading.options.stack || !app::is_folder(inputs.front()));
 }
 
 bool Job::is_batch() const {
@@ -36,7 +36,7 @@ bool Job::is_batch() const {
   return has_place && takes_several(places.report) &&
          std::ranges::all_of(places.plots, takes_several, &app::Plot::path) &&
          std::ranges::all_of(places.surfaces, takes_several, &Surface::path) && !inputs.empty() &&
-         app::is_folder(inputs.front());
+         app::is_folder(inputs.front()) && !reading.options.stack;
 }
 
 }  // namespace ph::barcode

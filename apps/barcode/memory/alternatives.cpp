@@ -68,8 +68,7 @@ std::string alternatives(const Job& job, app::Session& session) {
   try {
     const RunContext& context = session.context();
     const NamedData data = read_input(
-        Input::open(files::path_of(job.places.input), &context, Input::Excess::stays_in_file), job,
-        context);
+        open_input(job.places.input, job, context, Input::Excess::stays_in_file), job, context);
     std::vector<std::string> texts;
     if (job.question.voxel)
       if (std::string text = larger_voxel(data, job, context); !text.empty())

@@ -26,10 +26,9 @@ PartInput read_part_input(const std::string& input, bool keeps_cells, const Job&
                         ? job.question.own_complex->name
                         : complex_names()[static_cast<std::size_t>(job.question.complex)],
                     why));
-  const Input opened =
-      Input::open(files::path_of(input), &session.context(), Input::Excess::is_expected,
-                  detail::start_check(job.reading.format));
-  if (job.reading.format == Format::automatic && is_barcode(opened))
+  const Input opened = open_input(input, job, session.context(), Input::Excess::is_expected,
+                                  detail::start_check(job.reading.format));
+  if (job.reading.format == Format::automatic && !job.reading.options.stack && is_barcode(opened))
     throw Error(ErrorKind::usage,
                 fmt::format("{}: {} is a barcode, expected an image", why, opened.name()));
   const NamedData data = read_input(opened, job, session.context());

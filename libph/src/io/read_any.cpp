@@ -2,6 +2,7 @@
 // Reads any format. This file chooses the format if the caller does not, and refuses options that
 // the format does not support.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -214,6 +215,20 @@ ReadResult read_any(const Input& input, Format format, const ReadOptions& option
     if (options.note) options.note(std::move(text));
   };
   inner.dropped = &dropped;
+  if (options.stack) {
+    detail::Stack stack = detail::read_stack(input, format, inner);
+    check_part(input, stack.format, options);
+    ReadResult result;
+    result.description =
+        fmt::format("image of {} voxels, {} {} files", fmt::join(stack.image.extents, " x "),
+                    stack.image.extents[0], stack.kind);
+    result.data = std::move(stack.image);
+    result.format = stack.format;
+    add_values(result, values_path, options);
+    result.notes = std::move(notes);
+    if (options.dropped != nullptr) options.dropped->clear();
+    return result;
+  }
   if (format == Format::automatic) {
     const auto known = detail::format_by_content(input);
     if (known == Format::points) detail::refuse_bytes(input);
@@ -262,6 +277,15 @@ ReadResult read_any(const Input& input, Format format, const ReadOptions& option
 
 ReadResult read_any(const std::filesystem::path& path, Format format, const ReadOptions& options,
                     const std::filesystem::path& values_path) {
+  if (options.stack)
+    return read_any(Input::of_folder(path, options.context), format, options, values_path);
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored))
+    throw Error(
+        ErrorKind::no_input,
+        fmt::format("{}: cannot read: it is a directory; {} reads the pictures in it as one "
+                    "volume",
+                    mark_place(printable(path.string())), mark(Setting::stack)));
   return read_any(
       Input::open(path, options.context, Input::Excess::stays_in_file, detail::start_check(format)),
       format, options, values_path);

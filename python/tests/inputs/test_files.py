@@ -205,3 +205,15 @@ def test_a_name_that_is_no_text(tmp_path):
     assert ph.read(name).tolist() == [[1, 2], [3, 4]]
     ph.rips([[0], [1]]).save(name, "csv")
     assert len(ph.read_barcode(name)) == 2
+
+
+def test_a_folder_of_slices(tmp_path):
+    for k in (10, 9, 1):
+        (tmp_path / f"slice{k}.pgm").write_bytes(b"P5 2 1 255\n" + bytes([k, k + 1]))
+    volume = ph.read(tmp_path, stack=True)
+    assert volume.dtype == np.uint8
+    assert volume.tolist() == [[[1, 2]], [[9, 10]], [[10, 11]]]
+    with pytest.raises(ph.MissingInputError, match="it is a directory; stack reads the pictures"):
+        ph.read(tmp_path)
+    with pytest.raises(ph.UsageError, match="expected a folder of pictures"):
+        ph.read(tmp_path / "slice1.pgm", stack=True)

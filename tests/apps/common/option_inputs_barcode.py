@@ -48,6 +48,7 @@ def rows(Row):
                             "|takes no separate values|for images only"),
         "--raw-type": Row("--raw-type", "int16", unfit="for shape|found raw|truncated point|double cannot hold|NaN"),
         "--raw-skip": Row("--raw-skip", "2", unfit="for shape|found raw|truncated point"),
+        "--stack": Row("--stack", unfit="expected a folder of pictures"),
         "--weld": Row("--weld", variant="split", sign="joined with another one"),
         "--complex": Row("--complex", "cubical", unfit=IMAGE, alike=("alpha", "delaunay-cech")),
         "--threshold": Row("--threshold", "0.9"),

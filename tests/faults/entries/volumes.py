@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Rows 31 to 38: volumes of microscopy and medicine whose headers are wrong."""
+import contextlib
+import os
 import struct
 import zlib
 
@@ -166,4 +168,48 @@ def tiff_entries():
     yield taken(38, "tiff", "WhiteIsZero", tiff(t262=0), PICTURE_BARS, note="0 is white")
 
 
-ENTRIES = [*nrrd_entries(), *meta_entries(), *tiff_entries()]
+def with_slices(**files_of_folder):
+    """Makes a folder `s` with these files: `_1_pgm` is 1.pgm."""
+    @contextlib.contextmanager
+    def around(folder):
+        os.mkdir(os.path.join(folder, "s"))
+        for name, content in files_of_folder.items():
+            with open(os.path.join(folder, "s", name[1:].replace("_", ".")), "w", encoding="ascii") as file:
+                file.write(content)
+        yield {}
+    return around
+
+
+def stack_entries():
+    first, second, high = "P2 3 1 9\n0 5 2\n", "P2 3 1 9\n4 9 1\n", "P2 1 3 9\n4 9 1\n"
+
+    def entry(name, code, message, around, named="s", options=(), output=None):
+        return Entry(35, f"stack: {name}", "ph-barcode", ("s", "--stack", *options), code, message,
+                     named if code else "", output=output, around=around)
+
+    yield entry("two slices", 0, "2 slices, from 1.pgm to 2.pgm", with_slices(_1_pgm=first, _2_pgm=second),
+                output=BARS)
+    yield entry("a gap", 0, "not evenly spaced: 2.pgm is followed by 4.pgm",
+                with_slices(_1_pgm=first, _2_pgm=second, _4_pgm=second), output=BARS)
+    yield entry("another file", 0, "1 other file or folder is not read, such as a.txt",
+                with_slices(_1_pgm=first, _2_pgm=second, _a_txt="a"), output=BARS)
+    yield entry("slices of two sizes", 65, "found 1 x 3 pixels of uint8, expected 3 x 1",
+                with_slices(_1_pgm=first, _2_pgm=high), "s/2.pgm")
+    yield entry("slices of two formats", 65, "slices of two formats", with_slices(_1_pgm=first, _2_png="x"))
+    yield entry("a damaged slice", 65, "not a PNG file", with_slices(_1_png="x"), "s/1.png")
+    yield entry("no slices", 65, "no slices", with_slices(_a_txt="a"))
+    yield entry("a format without slices", 64, "reads folders of PNG, PGM or TIFF pictures",
+                with_slices(_1_pgm=first), "", ("--format", "npy"))
+    yield Entry(35, "stack: a file", "ph-barcode", ("1.pgm", "--stack"), 64,
+                "expected a folder of pictures; a single file", "1.pgm", {"1.pgm": first.encode()})
+    yield Entry(35, "stack: standard input", "ph-barcode", ("-", "--stack"), 64,
+                "found -, expected a folder of pictures", "--stack")
+    yield entry("vertices at one position", 64, "makes sense for meshes", with_slices(_1_pgm=first), "--weld",
+                ("--weld",))
+    yield entry("values", 64, "format pgm takes no separate values", with_slices(_1_pgm=first), "--values",
+                ("--values", "s/1.pgm"))
+    yield Entry(51, "stack: a folder without the option", "ph-barcode", ("s",), 66,
+                "--stack reads the pictures", "s", around=with_slices(_1_pgm=first))
+
+
+ENTRIES = [*nrrd_entries(), *meta_entries(), *tiff_entries(), *stack_entries()]

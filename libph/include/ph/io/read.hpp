@@ -121,6 +121,8 @@ struct ReadOptions {
   Channel channel = Channel::automatic;  ///< for pictures
   /// For meshes in read_any: vertices at the same position become one vertex.
   bool weld = false;
+  /// For folders in read_any and read_image: the pictures in the folder are the slices of a volume.
+  bool stack = false;
   std::optional<RawLayout> raw = {};  ///< used by read_any for Format::raw
   /// Budget and stop token for an input that is opened by its path; null if there are none. An open
   /// Input has its own context.
@@ -180,6 +182,8 @@ SparseDistances read_sparse(const Input& input, const ReadOptions& options = {})
 /// An array of any dimension from NPY, NPZ, PNG, PGM, TIFF, DIPHA, NIfTI, NRRD or MetaImage,
 /// recognised by content. The axes are the axes of the file, in C order: a picture has (y, x), the
 /// pages of TIFF have (z, y, x), and the volumes of the last four formats have (x, y, z).
+/// With options.stack, the path is a folder, whose PNG, PGM or TIFF pictures of one kind are the
+/// slices of a volume (z, y, x), in the natural order of their names: slice2 before slice10.
 /// +-infinity is legal; NaN is an error or, with NanPolicy::drop, an absent voxel. An array that
 /// would take more than a third of the memory left in the budget stays in its file, or in a
 /// temporary file if its stored form differs from the form in memory; the file must not change
@@ -357,7 +361,8 @@ std::optional<Format> format_from_name(std::string_view name);
 Format detect_format(const Input& input);
 
 /// Reads any format.
-/// @param path "-" is standard input. @param format with Format::automatic, see detect_format.
+/// @param path "-" is standard input; with options.stack, a folder. @param format with
+/// Format::automatic, see detect_format.
 /// @param values_path a file with the values of the cells of a boundary matrix, or of the vertices
 ///        of a mesh or of simplices; empty: none. @throws Error as the readers do; Error
 ///        (not_built_in) if the format is not built in; Error (usage) if values are given for a

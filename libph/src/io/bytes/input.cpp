@@ -313,6 +313,21 @@ Input Input::open(const std::filesystem::path& path, const RunContext* context, 
   return unpacked;
 }
 
+Input Input::of_folder(const std::filesystem::path& path, const RunContext* context) {
+  Input input = view({}, path.string(), context);
+  const auto status = files::status_of(path);
+  if (!status && path != "-")
+    throw Error(ErrorKind::no_input,
+                mark_place(input.name_) + ": cannot open: " + files::reason(errno));
+  if (!status || status->kind != files::Kind::folder)
+    throw Error(ErrorKind::usage,
+                fmt::format("{}: found {}, expected a folder of pictures; a single file is read "
+                            "without this setting, also if it has several pages",
+                            mark(Setting::stack), input.name_));
+  input.path_ = path;
+  return input;
+}
+
 Input Input::unpacked(std::size_t offset, std::size_t size, Excess excess) const {
   const std::size_t most =
       context_ != nullptr && context_->memory.limit() != MemoryBudget::kUnlimited

@@ -99,6 +99,18 @@ Volume read_nrrd(const Input& input, const ReadOptions& options);
 /// names.
 Volume read_meta_image(const Input& input, const ReadOptions& options);
 
+/// A volume whose slices are pictures.
+struct Stack {
+  Image image;
+  Format format;          ///< the format of the slices
+  std::string_view kind;  ///< its name, for people
+};
+
+/// Reads the pictures in a folder (see Input::of_folder) as the slices of a volume (z, y, x).
+/// @param format png, pgm or tiff, or automatic if the folder has pictures of only one of them.
+/// @throws Error (usage) for another format.
+Stack read_stack(const Input& folder, Format format, const ReadOptions& options);
+
 /// The type of a DIPHA file, which is the number after the magic number.
 enum class DiphaType : std::int64_t {
   boundary_matrix = 0,

@@ -6,6 +6,7 @@
 namespace ph {
 
 Image read_image(const Input& input, const ReadOptions& options) {
+  if (options.stack) return detail::read_stack(input, Format::automatic, options).image;
   if (detail::is_png(input) || detail::is_pgm(input) || detail::is_npz(input)) input.take_memory();
   if (detail::is_png(input)) return detail::read_png_image(input, options);
   if (detail::is_pgm(input)) return detail::read_pgm_image(input);
@@ -18,6 +19,7 @@ Image read_image(const Input& input, const ReadOptions& options) {
 }
 
 Image read_image(const std::filesystem::path& path, const ReadOptions& options) {
+  if (options.stack) return read_image(Input::of_folder(path, options.context), options);
   return read_image(
       Input::open(path, options.context, Input::Excess::stays_in_file, detail::start_check()),
       options);

@@ -60,15 +60,15 @@ std::size_t number_after(std::string_view text, std::string_view name) {
 }
 
 // The pages as the program that wrote the file describes them.
-struct Stack {
+struct Description {
   std::size_t images = 1, channels = 1, slices = 1, frames = 1;
   bool is_described = false;
   bool has_slices_first = true;  // the slices of one time follow each other
 };
 
-Stack stack_of(const TiffPage& page) {
+Description described_by(const TiffPage& page) {
   const std::string_view text = page.description;
-  Stack stack;
+  Description stack;
   if (text.starts_with("ImageJ=")) {
     stack = {number_after(text, "\nimages="),
              number_after(text, "\nchannels="),
@@ -95,7 +95,7 @@ Stack stack_of(const TiffPage& page) {
 
 // The sizes of the axes. @param count the number of pages or, for a file of ImageJ with one page,
 // of images behind it.
-std::vector<Index> extents_of(const Input& input, const TiffPage& first, const Stack& stack,
+std::vector<Index> extents_of(const Input& input, const TiffPage& first, const Description& stack,
                               std::size_t count) {
   const auto index = [](std::size_t size) { return static_cast<Index>(size); };
   std::vector<Index> extents;
@@ -133,7 +133,7 @@ class TiffImage {
     if (first_.samples == 1 && options_.channel != Channel::automatic &&
         options_.channel != Channel::grey)
       refuse_channel(options_.channel, "grey", input_);
-    const Stack stack = stack_of(first_);
+    const Description stack = described_by(first_);
     // ImageJ writes files above 4 GB with one directory, behind which all images follow.
     is_long_ = pages_.size() == 1 && stack.is_described && stack.images > 1 &&
                first_.description.starts_with("ImageJ=");

@@ -78,6 +78,9 @@ class Input {
   /// stream, as their first bytes say. @param size the size that a header states for the unpacked
   /// data. @throws as `open`; Error (bad_data) also on bytes that are not compressed.
   Input unpacked(std::size_t offset, std::size_t size, Excess excess) const;
+  /// An input without bytes that stands for a folder. @throws Error (no_input) if there is no such
+  /// folder; Error (usage) if the path is something else.
+  static Input of_folder(const std::filesystem::path& path, const RunContext* context = nullptr);
   /// An input that only views bytes, which must outlive it. @param context as for `open`.
   static Input view(std::string_view bytes, const std::string& name,
                     const RunContext* context = nullptr);
@@ -98,7 +101,7 @@ class Input {
   std::size_t size() const { return text_.size(); }
   const std::string& name() const { return name_; }            ///< the printable name
   const std::string& extension() const { return extension_; }  ///< in lower case, with its dot
-  /// The file that was opened; empty for standard input and for bytes from elsewhere.
+  /// The file or folder that was opened; empty for standard input and for bytes from elsewhere.
   const std::filesystem::path& path() const { return path_; }
   /// The part of an archive or of a mesh that was requested; empty if none was.
   const std::string& member() const { return member_; }
