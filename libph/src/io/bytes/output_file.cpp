@@ -108,7 +108,10 @@ void OutputFile::open_regular() {
   if (descriptor_ < 0) fail_creating(path_, files::reason(errno));
 }
 
-OutputFile::~OutputFile() { discard(); }
+OutputFile::~OutputFile() {
+  if (is_pending_ && std::uncaught_exceptions() <= exceptions_) std::terminate();
+  discard();
+}
 
 OutputFile::OutputFile(OutputFile&& other) noexcept
     : path_(std::move(other.path_)),
@@ -116,10 +119,12 @@ OutputFile::OutputFile(OutputFile&& other) noexcept
       temporary_(std::exchange(other.temporary_, {})),
       buffer_(std::move(other.buffer_)),
       descriptor_(std::exchange(other.descriptor_, -1)),
-      owned_(std::exchange(other.owned_, false)) {}
+      owned_(std::exchange(other.owned_, false)),
+      is_pending_(std::exchange(other.is_pending_, false)) {}
 
 OutputFile& OutputFile::operator=(OutputFile&& other) noexcept {
   if (this == &other) return *this;
+  if (is_pending_) std::terminate();
   discard();
   path_ = std::move(other.path_);
   target_ = std::move(other.target_);
@@ -127,6 +132,7 @@ OutputFile& OutputFile::operator=(OutputFile&& other) noexcept {
   buffer_ = std::move(other.buffer_);
   descriptor_ = std::exchange(other.descriptor_, -1);
   owned_ = std::exchange(other.owned_, false);
+  is_pending_ = std::exchange(other.is_pending_, false);
   return *this;
 }
 
@@ -137,9 +143,11 @@ void OutputFile::discard() noexcept {
   temporary_.clear();
   descriptor_ = -1;
   owned_ = false;
+  is_pending_ = false;
 }
 
 void OutputFile::write(std::string_view bytes) {
+  is_pending_ = true;
   buffer_.append(bytes);
   if (buffer_.size() >= kBufferBytes) flush();
 }
@@ -161,11 +169,12 @@ void OutputFile::sync() {
 }
 
 void OutputFile::commit() {
+  is_pending_ = false;  // from here on, exceptions say what is wrong
   sync();
   if (target_.empty()) {
     if (owned_ && !files::close(std::exchange(descriptor_, -1))) fail_writing(errno);
-    descriptor_ = -1;
     owned_ = false;
+    discard();
     return;
   }
   const auto folder = folder_of(target_);
@@ -186,7 +195,8 @@ void OutputFile::commit() {
   files::sync_folder(folder);
 }
 
-void OutputFile::fail_writing(int error) const {
+void OutputFile::fail_writing(int error) {
+  discard();
   if (error == EPIPE) throw BrokenPipe();
   throw Error(ErrorKind::io, fmt::format("{}: cannot write: {}",
                                          path_ == "-" ? "standard output" : printable(path_),

@@ -2,6 +2,7 @@
 #pragma once
 #include <array>
 #include <cstddef>
+#include <exception>
 #include <filesystem>
 #include <ostream>
 #include <span>
@@ -28,7 +29,9 @@ void require_unpacked(const std::string& path);
 ///
 /// A regular file is written into an unnamed or temporary file in the same folder, which `commit`
 /// flushes to disk and renames; the output may therefore be one of the program's own inputs.
-/// Without `commit` nothing is left behind. Some targets cannot be replaced and are written
+/// Without `commit` nothing is left behind, and a caller that forgets it is stopped: the destructor
+/// ends the process, like that of std::thread, if bytes were written, no exception is on its way,
+/// and neither `commit` nor `discard` was called. Some targets cannot be replaced and are written
 /// directly: "-" (standard output), /dev/stdout and other names of descriptors, the file to which
 /// standard output or standard error is redirected, devices, FIFOs. A symbolic link is followed.
 /// The new file takes the mode of the file that it replaces, except for set-ID bits, and also the
@@ -58,6 +61,8 @@ class OutputFile {
   /// that.
   /// @throws Error (io or cannot_create), BrokenPipe.
   void commit();
+  /// Gives up the file. What was written to a target that cannot be replaced stays there.
+  void discard() noexcept;
 
   const std::string& path() const { return path_; }
   /// The name of the file before `commit`; empty if it has none. For a caller that must end the
@@ -66,8 +71,7 @@ class OutputFile {
 
  private:
   void open_regular();
-  void discard() noexcept;
-  [[noreturn]] void fail_writing(int error) const;
+  [[noreturn]] void fail_writing(int error);
 
   std::string path_;  // the name as the user gave it
   // Paths, not texts, because removing a file must not need memory.
@@ -75,7 +79,9 @@ class OutputFile {
   std::filesystem::path temporary_;  // its name until `commit`; empty if it has none
   std::string buffer_;
   int descriptor_ = -1;
-  bool owned_ = false;  // true if the descriptor must be closed
+  bool owned_ = false;       // true if the descriptor must be closed
+  bool is_pending_ = false;  // true if bytes were written and not committed
+  int exceptions_ = std::uncaught_exceptions();  // when the file was opened
 };
 
 /// A stream into an output file, for writers that take a std::ostream. Errors of the file pass
