@@ -112,6 +112,7 @@ MUTANTS = [
         ("roles: what is high is a leg", "role-leg", "height >= least_slenderness * width", "true"),
         ("roles: a leg ends at the board", "role-hidden", "is_over_box(x + share * (eye[0] - x), y + share * (eye[1] - y))", "false"),
         ("roles: all below a board is hidden", "role-hidden", "is_over_box(x + share * (eye[0] - x), y + share * (eye[1] - y))", "true"),
+        ("roles: a piece of a leg is an object", "role-piece", "segment.role == Role::object &&", "false &&"),
         ("standing: on any support that is reached", "standing-nearest", "away >= nearest[segment.label]", "false"),
         ("containers: two objects make one", "container-fewest", "3", "2"),
         ("containers: walls in one part have no floor", "container-floor", "area_of(hull)", "1 + area_of(hull)"),

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <map>
 #include <utility>
 #include <vector>
@@ -109,10 +110,20 @@ bool reaches(const Segment& segment, const SceneSurface& support, const Vec3& vi
   return is_over_box(x + share * (eye[0] - x), y + share * (eye[1] - y));
 }
 
+/// True if a segment is below a leg, and the middle of it is not beside the leg.
+bool is_under(const Segment& segment, const Segment& leg, const Plane& support) {
+  const auto [nx, ny, nz] = support.normal;
+  const double x = segment.centroid[0] - leg.centroid[0], y = segment.centroid[1] - leg.centroid[1];
+  const double z = segment.centroid[2] - leg.centroid[2];
+  const double up = nx * x + ny * y + nz * z;
+  const double beside = std::hypot(x - up * nx, y - up * ny, z - up * nz);
+  return up < 0 && beside <= leg.oriented_box.size[0];
+}
+
 /// Sets the role of the legs of tables: narrow, slender segments under a support, where there is a
-/// floor. They end at its lower side, or where the support begins to hide them.
+/// floor. They end at its lower side, or where the support begins to hide them. The noise of depth
+/// may tear a leg into pieces, and so narrow segments under such a segment are legs as well.
 void find_legs(const SceneTree& scene, const std::vector<double>& tops, SceneCut& cut) {
-  // The noise of depth may tear a leg into pieces.
   constexpr double least_slenderness = 2, most_width = 0.15;
   if (std::ranges::find(scene.surfaces, Role::floor, &SceneSurface::role) == scene.surfaces.end())
     return;
@@ -128,6 +139,16 @@ void find_legs(const SceneTree& scene, const std::vector<double>& tops, SceneCut
         segment.role = Role::support;
     }
   }
+  std::vector<Segment> legs;
+  std::ranges::copy_if(cut.segments, std::back_inserter(legs),
+                       [](const Segment& segment) { return segment.role == Role::support; });
+  for (Segment& segment : cut.segments)
+    // mutant: role-piece
+    if (segment.role == Role::object && segment.oriented_box.size[1] <= most_width &&
+        std::ranges::any_of(legs, [&](const Segment& leg) {
+          return is_under(segment, leg, scene.surfaces.front().plane);
+        }))
+      segment.role = Role::support;
 }
 
 }  // namespace

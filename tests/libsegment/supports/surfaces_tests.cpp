@@ -171,6 +171,20 @@ TEST(Surfaces, ATableHasLegs) {
   EXPECT_GT(room.share_on(s, 1, static_cast<int>(segment(7).on.surface)), 0.8);
 }
 
+TEST(Surfaces, ALegMayBeTornIntoPieces) {
+  const auto piece = [](double x, double bottom, double top) {
+    return Block{{x, -0.3, bottom}, {x + 0.05, -0.25, top}};
+  };
+  const Block floor{{-3, -3, -0.72}, {3, 3, -0.7}}, table{{-0.5, -0.3, -0.02}, {0.5, 0.3, 0}};
+  // The upper piece touches the table. The last one is as low as the lower piece, but under no leg.
+  const Room room(
+      {floor, table, piece(-0.5, -0.3, -0.02), piece(-0.5, -0.7, -0.4), piece(0.1, -0.7, -0.4)});
+  const Segmentation s = room.segmented();
+  const auto role = [&](int block) { return s.cut.segments.at(room.label_of(s, block) - 1).role; };
+  for (const int block : {2, 3}) EXPECT_EQ(role(block), Role::support) << block;
+  EXPECT_EQ(role(4), Role::object);
+}
+
 TEST(Surfaces, TheTableHidesTheUpperEndsOfItsLegs) {
   const auto leg = [](double x, double y) {
     return Block{{x, y, -0.7}, {x + 0.05, y + 0.05, -0.02}};
