@@ -45,7 +45,7 @@ TEST_F(OutputFilesDeathTest, ACallerThatForgetsCommitIsStopped) {
 }
 
 TEST_F(OutputFiles, LeaveNothingWithoutCommit) {
-  OutputFile(path());
+  { const OutputFile file(path()); }
   EXPECT_TRUE(is_empty()) << "nothing was written";
   {
     OutputFile file(path());
