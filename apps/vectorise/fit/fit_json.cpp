@@ -70,7 +70,7 @@ class Reader {
     bool has_format = false, has_kind = false;
     std::set<std::string> seen;
     std::optional<std::int64_t> length;
-    for_each_member([&](const std::string& name) {
+    json_.for_each_member([&](const std::string& name) {
       const std::size_t place = json_.place();
       if (!seen.insert(name).second) json_.fail(place, {name, "a second one", "one", {}});
       if (name == "format") {
@@ -99,9 +99,9 @@ class Reader {
       } else if (name == "superlevel") {
         fit_.cubical.superlevel = json_.boolean();
       } else if (name == "periodic") {
-        for_each_element([&] { fit_.cubical.periodic.push_back(json_.boolean()); });
+        json_.for_each_element([&] { fit_.cubical.periodic.push_back(json_.boolean()); });
       } else if (name == "blocks") {
-        for_each_element([&] { read_block(); });
+        json_.for_each_element([&] { read_block(); });
       } else {
         json_.skip_value();
       }
@@ -128,17 +128,6 @@ class Reader {
   }
 
  private:
-  template <class Take>
-  void for_each_member(Take&& take) {
-    std::string name;
-    json_.expect('{');
-    for (bool first = true; json_.next_member(first, name);) take(name);
-  }
-  template <class Take>
-  void for_each_element(Take&& take) {
-    json_.expect('[');
-    for (bool first = true; json_.next_element(first);) take();
-  }
   std::size_t count(const char* what) {
     return static_cast<std::size_t>(json_.integer(1, kMost, what));
   }
@@ -181,9 +170,9 @@ class Reader {
   void read_block() {
     Block& block = fit_.blocks.emplace_back();
     std::vector<std::size_t>& shape = shapes_.emplace_back();
-    for_each_member([&](const std::string& name) {
+    json_.for_each_member([&](const std::string& name) {
       if (name == "shape")
-        for_each_element([&] { shape.push_back(count("number")); });
+        json_.for_each_element([&] { shape.push_back(count("number")); });
       else if (name == "dim")
         block.dim = static_cast<int>(json_.integer(0, kMost, "dimension"));
       else if (name == "grid")
@@ -195,9 +184,9 @@ class Reader {
       else if (name == "sigma")
         block.sigma = json_.number();
       else if (name == "centres")
-        for_each_element([&] { read_centre(block.atol); });
+        json_.for_each_element([&] { read_centre(block.atol); });
       else if (name == "widths")
-        for_each_element([&] { block.atol.widths.push_back(json_.number()); });
+        json_.for_each_element([&] { block.atol.widths.push_back(json_.number()); });
       else if (name == "contrast")
         block.atol.contrast = word<Atol::Contrast>("contrast");
       else
@@ -207,7 +196,7 @@ class Reader {
   void read_centre(Atol& atol) {
     const std::size_t place = json_.place();
     std::vector<double> numbers;
-    for_each_element([&] { numbers.push_back(json_.number()); });
+    json_.for_each_element([&] { numbers.push_back(json_.number()); });
     if (numbers.size() != 2)
       json_.fail(place,
                  {"centre", fmt::format("{} numbers", numbers.size()), "birth and death", {}});
@@ -215,7 +204,7 @@ class Reader {
   }
   void read_pixels(PixelRange& range) { read_range(range.lo, range.hi, "pixels", range.pixels); }
   void read_range(double& lo, double& hi, std::string_view counted, std::size_t& number) {
-    for_each_member([&](const std::string& name) {
+    json_.for_each_member([&](const std::string& name) {
       if (name == "lo")
         lo = json_.number();
       else if (name == "hi")

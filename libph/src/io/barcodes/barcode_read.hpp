@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "ph/detail/io/barcode_formats.hpp"
+#include "ph/detail/io/json_cursor.hpp"
 #include "ph/detail/io/reader.hpp"
 
 namespace ph {
@@ -15,6 +16,13 @@ Fault fault_of_bar(const Bar& bar);
 
 /// This line precedes the intervals of each dimension in Ripser's output.
 inline constexpr std::string_view kRipserHeading = "persistence intervals in dim ";
+
+/// Reads a birth, a death or another value of a filtration. A death of null means that the class
+/// never dies.
+double read_barcode_value(detail::JsonCursor& json);
+/// Reads the value of a member of a barcode if it describes the origin of the barcode. @return
+/// false for any other member.
+bool read_barcode_info(detail::JsonCursor& json, const std::string& name, BarcodeInfo& info);
 
 StoredBarcode read_barcode_json(const Input& input);
 Barcode read_barcode_ripser(const Input& input);

@@ -13,199 +13,6 @@ namespace {
 
 using detail::JsonCursor;
 
-/// Calls `take` with each member of the next object.
-template <class Take>
-void for_each_member(JsonCursor& json, Take&& take) {
-  std::string name;
-  json.expect('{');
-  for (bool first = true; json.next_member(first, name);) take(name);
-}
-
-// A death of null means that the class never dies.
-double value_of(JsonCursor& json) {
-  if (json.accept_null()) return kInfinity;
-  if (json.peek() != '"') return json.number();
-  const std::size_t place = json.place();
-  const std::string word = json.string();
-  if (word != "-inf")
-    json.fail(place, {"value", printable(word, 40), "a number, null or \"-inf\"", {}});
-  return -kInfinity;
-}
-
-/// Reads the members that describe the origin of a barcode.
-class InfoReader {
- public:
-  InfoReader(JsonCursor& json, BarcodeInfo& info) : json_(json), info_(info) {}
-
-  /// If member `name` describes the origin of the barcode, reads its value. @return false for any
-  /// other member.
-  bool read(const std::string& name) {
-    if (name == "program") {
-      info_.program = text();
-    } else if (name == "input") {
-      read_input();
-    } else if (name == "complex") {
-      info_.complex = text();
-    } else if (name == "field") {
-      info_.field = json_.integer(2, kMost, "field");
-    } else if (name == "max_dim") {
-      info_.max_dim = static_cast<int>(json_.integer(0, kMost, "dimension"));
-    } else if (name == "threshold") {
-      info_.threshold = number();
-    } else if (name == "vertices") {
-      info_.vertices = count();
-    } else if (name == "edges") {
-      info_.edges = static_cast<std::size_t>(count());
-    } else if (name == "collapsed") {
-      info_.collapsed = json_.boolean();
-    } else if (name == "metric") {
-      info_.metric = text();
-    } else if (name == "construction") {
-      info_.construction = text();
-    } else if (name == "periodic") {
-      json_.expect('[');
-      for (bool first = true; json_.next_element(first);)
-        info_.periodic.push_back(static_cast<int>(json_.integer(0, kMost, "axis")));
-    } else if (name == "vertex_weights") {
-      info_.vertex_weights = text();
-    } else if (name == "subsample") {
-      read_subsample();
-    } else if (name == "voxels") {
-      read_voxels();
-    } else if (name == "alpha") {
-      read_alpha();
-    } else if (name == "superlevel") {
-      info_.superlevel = json_.boolean();
-    } else if (name == "approximation") {
-      info_.approximation = number();
-    } else if (name == "min_persistence") {
-      info_.min_persistence = number();
-    } else if (name == "min_dim") {
-      info_.min_dim = static_cast<int>(json_.integer(0, kMost, "dimension"));
-    } else if (name == "dims") {
-      json_.expect('[');
-      for (bool first = true; json_.next_element(first);)
-        info_.dims.push_back(static_cast<int>(json_.integer(0, kMost, "dimension")));
-    } else if (name == "engine") {
-      info_.engine = text();
-    } else if (name == "timings") {
-      for_each_member(json_, [&](const std::string& stage) {
-        info_.timings.emplace_back(stage, json_.number());
-      });
-    } else if (name == "peak_memory") {
-      info_.peak_memory = static_cast<std::uint64_t>(count());
-    } else {
-      return false;
-    }
-    return true;
-  }
-
- private:
-  static constexpr std::int64_t kMost = std::numeric_limits<std::int32_t>::max();
-
-  // A null value means that the text is unknown.
-  std::string text() { return json_.accept_null() ? std::string() : json_.string(); }
-  std::optional<double> number() {
-    return json_.accept_null() ? std::nullopt : std::optional(value_of(json_));
-  }
-  std::int64_t count() {
-    return json_.accept_null()
-               ? 0
-               : json_.integer(0, std::numeric_limits<std::int64_t>::max(), "number");
-  }
-
-  void read_affine() {
-    const std::size_t place = json_.place();
-    std::vector<double> numbers;
-    json_.expect('[');
-    for (bool first_row = true; json_.next_element(first_row);) {
-      json_.expect('[');
-      for (bool first = true; json_.next_element(first);) numbers.push_back(json_.number());
-    }
-    if (numbers.size() != 12)
-      json_.fail(place, {"affine", fmt::format("{} numbers", numbers.size()), "3 rows of 4", {}});
-    auto& affine = info_.affine.emplace();
-    for (std::size_t i = 0; i < numbers.size(); ++i) affine[i / 4][i % 4] = numbers[i];
-  }
-
-  void read_input() {
-    for_each_member(json_, [&](const std::string& member) {
-      if (member == "path") {
-        info_.input = text();
-      } else if (member == "description") {
-        info_.input_description = text();
-      } else if (member == "points") {
-        info_.points = count();
-      } else if (member == "coordinates") {
-        info_.coordinates = count();
-      } else if (member == "shape") {
-        info_.shape.clear();
-        json_.expect('[');
-        for (bool first = true; json_.next_element(first);) info_.shape.push_back(count());
-      } else if (member == "affine") {
-        read_affine();
-      } else if (member == "nan") {
-        info_.nan_dropped = text() == "drop";
-      } else {
-        json_.skip_value();
-      }
-    });
-  }
-
-  void read_subsample() {
-    if (json_.accept_null()) return;
-    auto& sample = info_.subsample.emplace();
-    for_each_member(json_, [&](const std::string& member) {
-      if (member == "points")
-        sample.points = count();
-      else if (member == "of")
-        sample.of = count();
-      else if (member == "covering_radius")
-        sample.covering_radius = number().value_or(kInfinity);
-      else
-        json_.skip_value();
-    });
-  }
-
-  void read_alpha() {
-    if (json_.accept_null()) return;
-    auto& alpha = info_.alpha.emplace();
-    for_each_member(json_, [&](const std::string& member) {
-      if (member == "squared") {
-        alpha.squared = json_.boolean();
-      } else if (member == "period") {
-        json_.expect('[');
-        for (bool first = true; json_.next_element(first);) alpha.period.push_back(json_.number());
-      } else if (member == "hidden") {
-        json_.expect('[');
-        for (bool first = true; json_.next_element(first);) alpha.hidden.push_back(count());
-      } else {
-        json_.skip_value();
-      }
-    });
-  }
-
-  void read_voxels() {
-    if (json_.accept_null()) return;
-    auto& grid = info_.voxels.emplace();
-    for_each_member(json_, [&](const std::string& member) {
-      if (member == "edge") {
-        grid.voxel = json_.number();
-      } else if (member == "value") {
-        grid.value = text();
-      } else if (member == "first") {
-        json_.expect('[');
-        for (bool first = true; json_.next_element(first);) grid.first.push_back(json_.number());
-      } else {
-        json_.skip_value();
-      }
-    });
-  }
-
-  JsonCursor& json_;
-  BarcodeInfo& info_;
-};
-
 /// Reads the JSON that write_barcode_json writes. Unknown members are skipped.
 class Reader {
  public:
@@ -216,9 +23,8 @@ class Reader {
   StoredBarcode read() {
     StoredBarcode stored;
     shape_ = &stored.info.shape;
-    InfoReader info(json_, stored.info);
     bool format = false, bars = false;
-    for_each_member(json_, [&](const std::string& name) {
+    json_.for_each_member([&](const std::string& name) {
       const std::size_t place = json_.place();
       if (name == "format") {
         const std::string value = json_.string();
@@ -236,7 +42,7 @@ class Reader {
         if (bars) json_.fail(place, {"bars", "a second list", "one", {}});
         bars = true;
         read_bars();
-      } else if (!info.read(name)) {
+      } else if (!read_barcode_info(json_, name, stored.info)) {
         skip(name);
       }
     });
@@ -275,40 +81,37 @@ class Reader {
   }
 
   void read_bars() {
-    json_.expect('[');
-    for (bool first = true; json_.next_element(first);) {
+    json_.for_each_element([&] {
       if ((++count_ & 0xFFF) == 0) input_.poll();
       read_bar();
-    }
+    });
   }
 
   void read_bar() {
     json_.peek();
     const std::size_t place = json_.place();
     Bar bar;
-    bool first = true, dim = false, birth = false, death = false, born = false, died = false;
-    std::string name;
+    bool dim = false, birth = false, death = false, born = false, died = false;
     BarLoops loops;
     double p = std::nan("");
     for (auto* const numbers : {&birth_, &death_, &chain_, &birth_voxel_, &death_voxel_})
       numbers->clear();
     coefficients_.clear();
     runs_.clear();
-    json_.expect('{');
-    const auto once = [&](bool& seen) {
-      if (seen) json_.fail(json_.place(), {name, "a second one", "one per bar", {}});
-      seen = true;
-    };
-    while (json_.next_member(first, name)) {
+    json_.for_each_member([&](const std::string& name) {
+      const auto once = [&](bool& seen) {
+        if (seen) json_.fail(json_.place(), {name, "a second one", "one per bar", {}});
+        seen = true;
+      };
       if (name == "dim") {
         once(dim);
         bar.dim = static_cast<int>(json_.integer(0, kMostBarDimension, "dimension"));
       } else if (name == "birth") {
         once(birth);
-        bar.birth = value_of(json_);
+        bar.birth = read_barcode_value(json_);
       } else if (name == "death") {
         once(death);
-        bar.death = value_of(json_);
+        bar.death = read_barcode_value(json_);
       } else if (name == "birth_cell") {
         once(born);
         if (!json_.accept_null()) read_cell(birth_);
@@ -330,7 +133,7 @@ class Reader {
       } else {
         skip(name);
       }
-    }
+    });
     if (!dim || !birth || !death) {
       json_.fail(place, {"incomplete bar",
                          !dim     ? "no dim"
@@ -401,16 +204,14 @@ class Reader {
     json_.peek();
     const std::size_t place = json_.place();
     numbers.clear();
-    bool first = true, known = false;
-    std::string name;
-    json_.expect('{');
-    while (json_.next_member(first, name)) {
+    bool known = false;
+    json_.for_each_member([&](const std::string& name) {
       if (read_numbers(name, numbers, 0, place)) {
         known = true;
       } else {
         json_.skip_value();
       }
-    }
+    });
     if (!known || numbers.empty()) {
       json_.fail(place, {"cell", "none", "a member vertices, grid or row", {}});
     }
@@ -441,21 +242,18 @@ class Reader {
   void read_chain() {
     json_.peek();
     const std::size_t place = json_.place();
-    std::string name;
     chain_.clear();
     coefficients_.clear();
-    json_.expect('[');
-    for (bool first = true; json_.next_element(first);) {
+    json_.for_each_element([&] {
       const std::size_t before = chain_.size();
       std::int64_t coefficient = 0;
-      json_.expect('{');
-      for (bool first_member = true; json_.next_member(first_member, name);) {
+      json_.for_each_member([&](const std::string& name) {
         if (name == "coefficient") {
           coefficient = read_coefficient();
         } else if (!read_numbers(name, chain_, before, place)) {
           json_.skip_value();
         }
-      }
+      });
       coefficients_.push_back(coefficient);
       // All cells of a chain have equally many numbers.
       const std::size_t numbers = chain_.size() - before;
@@ -465,39 +263,34 @@ class Reader {
                            "cells of one dimension, each with its coefficient",
                            {}});
       }
-    }
+    });
   }
 
   BarLoops read_loops() {
     BarLoops read;
-    std::string name;
-    json_.expect('[');
-    for (bool first = true; json_.next_element(first);) {
+    json_.for_each_element([&] {
       json_.peek();
       const std::size_t place = json_.place();
       Loop loop;
       loop.coefficient = 0;
-      json_.expect('{');
-      for (bool first_member = true; json_.next_member(first_member, name);) {
+      json_.for_each_member([&](const std::string& name) {
         if (name == "coefficient") {
           loop.coefficient = read_coefficient();
         } else if (name == "length") {
-          loop.length = value_of(json_);
+          loop.length = read_barcode_value(json_);
         } else if (name == "tight") {
           read.tightness = read_tightness();
         } else if (name == "grid") {
           set_kind(CellKind::grid, place);
-          json_.expect('[');
-          for (bool first_vertex = true; json_.next_element(first_vertex);)
-            read_list(loop.numbers, "coordinate");
+          json_.for_each_element([&] { read_list(loop.numbers, "coordinate"); });
         } else if (!read_numbers(name, loop.numbers, 0, place)) {
           json_.skip_value();
         }
-      }
+      });
       if (loop.coefficient == 0)
         json_.fail(place, {"loop", "no coefficient", "a coefficient other than 0", {}});
       read.loops.push_back(std::move(loop));
-    }
+    });
     return read;
   }
 
@@ -537,9 +330,8 @@ class Reader {
   }
 
   void read_list(std::vector<Index>& numbers, const char* what) {
-    json_.expect('[');
-    for (bool first = true; json_.next_element(first);)
-      numbers.push_back(json_.integer(0, std::numeric_limits<Index>::max(), what));
+    json_.for_each_element(
+        [&] { numbers.push_back(json_.integer(0, std::numeric_limits<Index>::max(), what)); });
   }
 
   // Reads a set of voxels as runs [first, count], which ascend and do not meet.
@@ -547,8 +339,7 @@ class Reader {
     constexpr std::int64_t kMostVoxels = std::int64_t{1} << 32;
     std::int64_t end = 0;
     runs_.clear();
-    json_.expect('[');
-    for (bool first = true; json_.next_element(first);) {
+    json_.for_each_element([&] {
       json_.peek();
       const std::size_t place = json_.place();
       run_.clear();
@@ -561,7 +352,7 @@ class Reader {
                            {}});
       end = run_[0] + run_[1];
       runs_.push_back({run_[0], end});
-    }
+    });
   }
 
   VoxelRange store_runs() {

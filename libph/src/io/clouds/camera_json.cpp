@@ -36,7 +36,6 @@ class CameraJson {
 
   Camera camera() {
     Members members;
-    json_.expect('{');
     read_members(members, 0);
     json_.expect_end();
     if (has_pictures_) return of_pictures();
@@ -45,8 +44,7 @@ class CameraJson {
 
  private:
   void read_members(Members& m, int depth) {
-    bool first = true;
-    for (std::string name; json_.next_member(first, name);) {
+    json_.for_each_member([&](const std::string& name) {
       if (name == "width" || name == "height") {
         (name == "width" ? m.width : m.height) = json_.integer(1, kMostPixels, name.c_str());
       } else if (name == "fx" || name == "fy") {
@@ -67,17 +65,15 @@ class CameraJson {
         m.coefficients = numbers();
       } else if ((name == "intrinsic" || name == "intrinsics") && depth == 0 &&
                  json_.peek() == '{') {
-        json_.expect('{');
         read_members(m, depth + 1);
       } else if (depth == 0 && is_number_of_picture(name) && json_.peek() == '{') {
-        json_.expect('{');
         Members picture;
         read_members(picture, depth + 1);
         add_picture(name, picture);
       } else {
         json_.skip_value();
       }
-    }
+    });
   }
 
   static bool is_number_of_picture(std::string_view name) {
@@ -93,8 +89,7 @@ class CameraJson {
 
   std::vector<double> numbers() {
     std::vector<double> result;
-    json_.expect('[');
-    for (bool first = true; json_.next_element(first);) result.push_back(json_.number());
+    json_.for_each_element([&] { result.push_back(json_.number()); });
     return result;
   }
 

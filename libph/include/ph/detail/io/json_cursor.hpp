@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "ph/detail/io/reader.hpp"
 
@@ -22,13 +23,19 @@ class JsonCursor {
   void expect(char mark);
   /// Takes the word null if it comes next. @return true if it did.
   bool accept_null();
-  /// Goes to the next member of an object whose '{' was taken: takes the member's name and the
-  /// colon. @return false at the object's '}'.
-  /// @param first true for the first member; the cursor sets it to false.
-  bool next_member(bool& first, std::string& name);
-  /// Goes to the next element of an array whose '[' was taken; `first` is as in next_member.
-  /// @return false at the array's ']'.
-  bool next_element(bool& first);
+  /// Takes an object. `take` is called with the name of each member, and takes its value.
+  template <class Take>
+  void for_each_member(Take&& take) {
+    expect('{');
+    std::string name;
+    for (bool first = true; next_member(first, name);) take(std::as_const(name));
+  }
+  /// Takes an array. `take` is called for each element, and takes it.
+  template <class Take>
+  void for_each_element(Take&& take) {
+    expect('[');
+    for (bool first = true; next_element(first);) take();
+  }
 
   bool boolean();
   /// A string with its escapes decoded; \u becomes UTF-8.
@@ -44,6 +51,13 @@ class JsonCursor {
   [[noreturn]] void fail(std::size_t place, const Fault& fault) const;
 
  private:
+  /// Goes to the next member of an object whose '{' was taken: takes the member's name and the
+  /// colon. @return false at the object's '}'.
+  /// @param first true for the first member; the cursor sets it to false.
+  bool next_member(bool& first, std::string& name);
+  /// Goes to the next element of an array whose '[' was taken; `first` is as in next_member.
+  /// @return false at the array's ']'.
+  bool next_element(bool& first);
   bool accept_word(std::string_view word);
   std::string found();
   std::string_view number_word();
