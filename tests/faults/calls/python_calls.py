@@ -342,7 +342,7 @@ CALLS = [(room, *row) for room, rows in {
         ("ph.read(home + 'abcd', raw_shape=(3,))", "DataError", "trailing data"),
         ("ph.read(home + 'abcd', raw_shape=(2, 2)).tolist()", "=", r"\[\[97, 98\], \[99, 100\]\]"),
         ("ph.read(home + 'abcd', raw_skip=2)", "UsageError", "raw_skip"),
-        ("ph.read(home + 'abcd', 'points', raw_shape=(4,))", "UsageError", "found format 'points'"),
+        ("ph.read(home + 'abcd', 'points', raw_shape=(4,))", "UsageError", "found format='points'"),
         ("ph.read(home + 'abcd', raw_shape=(2,), raw_dtype=object)", "UsageError", "raw_dtype: found"),
         ("ph.read_barcode(home + 'abcd')", "DataError", ":1:1: header"),
         ("ph.read_barcode(home + 'table.txt', 'x')", "UsageError", "format: found 'x'"),

@@ -176,6 +176,7 @@ TEST(PublicStructs, LoopsOfBars) {
       info.loops = loops;
       OutputFile file("/dev/null");
       write_barcode(file, bars, BarcodeFormat::json, info);
+      file.commit();
     };
   };
   const BarLoops loop{{Loop{{0, 1, 2}, 1}}, Tightness::none};
