@@ -74,17 +74,13 @@ void check_metadata(ChosenNumbers& chosen) {
 
   const Input input = Input::view(json, "metadata");
   detail::JsonCursor cursor(input);
-  cursor.expect('{');
-  bool is_first = true, has_title = false;
-  for (std::string name; cursor.next_member(is_first, name);) {
-    if (name != "title") {
-      cursor.skip_value();
-      continue;
-    }
+  bool has_title = false;
+  cursor.for_each_member([&](const std::string& name) {
+    if (name != "title") return cursor.skip_value();
     const std::string title = cursor.string();
     require(!is_ascii(meta.title) || title == meta.title, "a title is another");
     has_title = true;
-  }
+  });
   cursor.expect_end();
   require(has_title || meta.title.empty(), "a title is lost");
 }
