@@ -241,7 +241,7 @@ class Pictures(GuessTest):
         for name, content, words in (
                 ("x.jpg", b"\xff\xd8\xff\xe0" + bytes(90), ["JPEG", "convert it to PNG"]),
                 ("x.png", b"\xff\xd8\xff\xe0" + bytes(90), ["JPEG", "convert it to PNG"]),
-                ("x.tif", b"II*\0" + bytes(90), ["TIFF: found no pages"]),
+                ("x.tif", b"II*\0" + bytes(90), ["pages of a TIFF, found none"]),
                 ("x.webp", b"RIFF\x10\0\0\0WEBPVP8 " + bytes(40), ["WebP"]),
                 ("x.obj", b"# a mesh\nmtllib m.mtl\no cube\nv 0 0 1\nv 1 0 0\nf 1 2 1\n",
                  ["OBJ mesh", "OFF or PLY"]),

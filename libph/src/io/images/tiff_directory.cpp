@@ -79,7 +79,7 @@ class Directories {
       input.fail_at_byte(
           4, {"size of an offset in BigTIFF", fmt::format("{}", integer(4, 2)), "8, then 0", {}});
     next_ = integer(is_big_ ? 8 : 4, is_big_ ? 8 : 4);
-    if (next_ == 0) input.fail({"TIFF", "no pages", "at least one", {}});
+    if (next_ == 0) input.fail({"pages of a TIFF", "none", "at least one", {}});
   }
 
   // Reads the next page. @return false after the last one.
