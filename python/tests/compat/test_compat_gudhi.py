@@ -272,6 +272,7 @@ def test_images():
     line.compute_persistence()
     assert line.persistence_intervals_in_dimension(0).tolist() == [[3, 4], [2, INF]]
     oblong = gudhi.CubicalComplex(vertices=[0, 1, 2, 3, 4, 5], dimensions=[2, 3])
+    assert oblong.num_simplices() == oblong.all_cells().size == 15
     assert oblong.vertices().tolist() == [[0, 2, 4], [1, 3, 5]]
     torus = gudhi.PeriodicCubicalComplex(top_dimensional_cells=np.arange(9).reshape(3, 3),
                                          periodic_dimensions=[True, True])
@@ -376,3 +377,4 @@ def test_images_of_gudhi(gudhi_itself, seed):
             assert list(zip(dims, lengths)) == sorted(zip(dims, lengths), reverse=True)
         assert ours.betti_numbers() == theirs.betti_numbers()
         assert ours.persistent_betti_numbers(0.6, 0.8) == theirs.persistent_betti_numbers(0.6, 0.8)
+        assert ours.num_simplices() == theirs.num_simplices() == ours.all_cells().size

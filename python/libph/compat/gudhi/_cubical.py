@@ -2,6 +2,7 @@
 """GUDHI's cubical complexes."""
 from __future__ import annotations
 
+import math
 import os
 from collections.abc import Sequence
 from typing import Any
@@ -99,6 +100,11 @@ class CubicalComplex(Persistence):
     def dimension(self) -> int:
         """The number of axes."""
         return self._image.ndim
+
+    def num_simplices(self) -> int:
+        """The number of cells of all dimensions."""
+        return math.prod(2 * n if periodic else 2 * n + (-1 if self._is_vertices else 1)
+                         for n, periodic in zip(self._image.shape, self._periodic))
 
     # ---- bars
 
