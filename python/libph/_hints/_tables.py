@@ -48,18 +48,19 @@ MODULE = _table(
     ("betti betti_numbers betti_curve", "use bars.betti(t), bars.betti_curve(grid)"),
     ("load loadtxt", "use ph.read for data, ph.read_barcode for what bars.save wrote"),
     ("save", "use bars.save"),
-    ("sliding_window SlidingWindow takens_embedding TakensEmbedding SingleTakensEmbedding "
-     "TimeDelayEmbedding time_delay_embedding", "use ph.delay_embedding"),
+    ("sliding_window sliding_windows SlidingWindow takens_embedding TakensEmbedding "
+     "SingleTakensEmbedding TimeDelay TimeDelayEmbedding time_delay_embedding",
+     "use ph.delay_embedding"),
     ("CechComplex cech fill_cech", "use ph.alpha, whose balls have the same bars"),
     ("WitnessComplex StrongWitnessComplex EuclideanWitnessComplex EuclideanStrongWitnessComplex",
      "use ph.rips with subsample, the number of landmarks"),
     ("fill_rips fill_freudenthal homology_persistence",
      "use ph.rips for points, ph.cubical for images, ph.filtered for simplices"),
-    ("circular_coordinates CircularCoords CircularCoordinates",
+    ("circular_coordinates CircularCoords CircularCoordinates ToroidalCoords",
      "DREiMac has them; ph.rips with representatives='cocycles' gives the cocycles"),
     ("mapper Mapper KeplerMapper make_mapper_pipeline MapperComplex CoverComplex",
      "KeplerMapper and giotto-tda have it"),
-    ("zigzag zigzag_persistence zigzag_homology_persistence", "Dionysus has it"),
+    ("zigzag zigzag_persistence zigzag_homology_persistence ZigzagPersistence", "Dionysus has it"),
     ("flagser flagser_unweighted flagser_weighted FlagserPersistence Flagser",
      "pyflagser has it; ph.filtered takes the simplices of any complex"),
     ("extended_persistence", "GUDHI's SimplexTree has it"),
@@ -242,12 +243,12 @@ SAME = [row.split() for row in (
     "colours colors rgb",
 )]
 
-_SIZES = "spacing voxel_size voxelsize pixel_size pixdim zooms"  # of voxels
+_SIZES = "spacing voxel_spacing voxel_size voxelsize pixel_size pixdim zooms"  # of voxels
 
 # Names of keywords that need more words: the names, the keywords of libph that a function must have
 # for the hint to apply, and the hint. These rows come before SAME.
 EXPLAINED = [
-    ("sublevel sublevel_sets sub_level lower_level", "superlevel",
+    ("sublevel sublevel_set sublevel_sets sublevelset sub_level lower_level", "superlevel",
      "sublevel sets are the default, superlevel=True takes superlevel sets"),
     ("mask roi", "construction nan",
      "nan='drop' leaves out the voxels that are NaN: np.where(mask, image, np.nan)"),
