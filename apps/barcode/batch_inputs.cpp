@@ -32,7 +32,7 @@ std::vector<std::string> with_files_of_folders(const Job& job) {
   extensions.insert(extensions.end(), packed.begin(), packed.end());
   std::vector<std::string> inputs;
   for (const std::string& input : job.inputs) {
-    if (!app::is_folder(input) || job.reading.options.stack) {
+    if (!job.is_folder_of_inputs(input)) {
       inputs.push_back(input);
       continue;
     }

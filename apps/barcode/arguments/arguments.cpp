@@ -274,7 +274,7 @@ std::optional<std::string> parse_arguments(int argc, const char* const* argv, Jo
   constexpr std::array<std::string_view, 3> kNotOfResults{"part", "resume", "output"};
   if (job.sharing.part) job.sharing.typed_options = app::given_options(options, kNotOfResults);
   if (job.compare.empty() && !job.is_batch() && !job.sharing.part && !job.sharing.joins &&
-      app::is_folder(job.inputs[0]) && !job.reading.options.stack)
+      job.is_folder_of_inputs(job.inputs[0]))
     throw Error(
         ErrorKind::no_input,
         fmt::format("{}: it is a directory, which is a batch of inputs; give a folder for the "

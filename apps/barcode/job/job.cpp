@@ -12,9 +12,13 @@ bool Job::draws_tree() const {
                              [](const app::Plot& plot) { return plot.kind == "tree"; });
 }
 
+bool Job::is_folder_of_inputs(const std::string& path) const {
+  return !reading.options.stack && app::is_folder(path);
+}
+
 bool Job::wants_part_of_one() const {
   return (sharing.part || sharing.on_ranks) && inputs.size() == 1 &&
-         (reading.options.stack || !app::is_folder(inputs.front()));
+         !is_folder_of_inputs(inputs.front());
 }
 
 bool Job::is_batch() const {
@@ -36,7 +40,7 @@ bool Job::is_batch() const {
   return has_place && takes_several(places.report) &&
          std::ranges::all_of(places.plots, takes_several, &app::Plot::path) &&
          std::ranges::all_of(places.surfaces, takes_several, &Surface::path) && !inputs.empty() &&
-         app::is_folder(inputs.front()) && !reading.options.stack;
+         is_folder_of_inputs(inputs.front());
 }
 
 }  // namespace ph::barcode

@@ -27,6 +27,9 @@ inline std::string gzipped(const std::string& bytes, int level = 9) {
   return packed(bytes, level, 15 + 16);
 }
 
+/// The bytes compressed as one zlib stream.
+inline std::string zipped(const std::string& bytes) { return packed(bytes, 6, 15); }
+
 /// The bytes compressed without a header, as in ZIP.
 inline std::string deflated(const std::string& bytes) { return packed(bytes, 6, -15); }
 

@@ -93,8 +93,8 @@ Description described_by(const TiffPage& page) {
   return stack;
 }
 
-// The sizes of the axes. @param count the number of pages or, for a file of ImageJ with one page,
-// of images behind it.
+// The sizes of the axes. @param count the number of images. One page of ImageJ may stand for
+// several images.
 std::vector<Index> extents_of(const Input& input, const TiffPage& first, const Description& stack,
                               std::size_t count) {
   const auto index = [](std::size_t size) { return static_cast<Index>(size); };

@@ -60,7 +60,7 @@ struct TiffPage {
     const std::size_t first = chunk / chunks_across() * chunk_height;
     return is_tiled ? chunk_height : std::min(chunk_height, height - first);
   }
-  /// "page 2, strip 3"
+  /// The name of a chunk in messages: "strip 3" or "tile 3".
   std::string place(std::size_t chunk) const;
 };
 
@@ -68,8 +68,8 @@ struct TiffPage {
 /// also on pages that no function here can decode.
 std::vector<TiffPage> read_tiff_pages(const Input& input);
 
-/// Decodes a chunk into bytes whose numbers have this machine's byte order. Bits become bytes.
-/// @param to has rows_of(chunk) * row_bytes() bytes, and at least one byte per bit for `bits == 1`.
+/// Decodes a chunk into bytes whose numbers have this machine's byte order. Samples of one bit stay
+/// packed, eight per byte. @param to has rows_of(chunk) * row_bytes() bytes.
 /// @return true if the chunk has more data than that. @throws Error (bad_data) if it has less.
 bool decode_tiff_chunk(const Input& input, const TiffPage& page, std::size_t chunk,
                        std::span<std::byte> to);

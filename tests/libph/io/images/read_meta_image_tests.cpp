@@ -1,44 +1,20 @@
 // SPDX-License-Identifier: MIT
-#include <zlib.h>
-
 #include <algorithm>
 #include <string>
 #include <vector>
 
 #include "ph/io/read.hpp"
+#include "tests/libph/io/images/volume_numbers.hpp"
 #include "tests/libph/io/packed.hpp"
 #include "tests/libph/io/read_support.hpp"
 
 namespace ph::test {
 namespace {
 
-const std::vector<double> kByRows{0, 1, 2, 10, 11, 12};
-
 std::string header(const std::string& type, const std::string& lines,
                    const std::string& file = "LOCAL") {
   return "ObjectType = Image\nNDims = 2\nDimSize = 2 3\nElementType = " + type + '\n' + lines +
          "ElementDataFile = " + file + '\n';
-}
-
-// The numbers 0, 10, 1, 11, 2, 12 in a type, with the first axis fastest.
-template <class T>
-std::string six(bool big) {
-  std::string bytes;
-  for (const int number : {0, 10, 1, 11, 2, 12}) {
-    std::string raw = le(static_cast<T>(number));
-    if (big) std::reverse(raw.begin(), raw.end());
-    bytes += raw;
-  }
-  return bytes;
-}
-
-std::string zipped(const std::string& bytes) {
-  uLongf size = compressBound(bytes.size());
-  std::string packed(size, '\0');
-  compress(reinterpret_cast<Bytef*>(packed.data()), &size,
-           reinterpret_cast<const Bytef*>(bytes.data()), bytes.size());
-  packed.resize(size);
-  return packed;
 }
 
 const std::string kSix = six<std::uint8_t>(false);

@@ -4,29 +4,16 @@
 #include <vector>
 
 #include "ph/io/read.hpp"
+#include "tests/libph/io/images/volume_numbers.hpp"
 #include "tests/libph/io/packed.hpp"
 #include "tests/libph/io/read_support.hpp"
 
 namespace ph::test {
 namespace {
 
-const std::vector<double> kByRows{0, 1, 2, 10, 11, 12};
-
 // A header of an image with 2 x 3 pixels, with these lines in addition.
 std::string header(const std::string& type, const std::string& lines) {
   return "NRRD0004\n# by hand\ntype: " + type + "\ndimension: 2\nsizes: 2 3\n" + lines + '\n';
-}
-
-// The numbers 0, 10, 1, 11, 2, 12 in a type, with the first axis fastest.
-template <class T>
-std::string six(bool big) {
-  std::string bytes;
-  for (const int number : {0, 10, 1, 11, 2, 12}) {
-    std::string raw = le(static_cast<T>(number));
-    if (big) std::reverse(raw.begin(), raw.end());
-    bytes += raw;
-  }
-  return bytes;
 }
 
 const std::string kSix = six<std::uint8_t>(false);

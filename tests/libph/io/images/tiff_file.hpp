@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <zlib.h>
-
 #include <algorithm>
 #include <map>
 #include <string>
 #include <vector>
 
 #include "ph/io/read.hpp"
+#include "tests/libph/io/packed.hpp"
 #include "tests/libph/io/read_support.hpp"
 
 namespace ph::test {
@@ -111,15 +110,6 @@ inline ReadResult read_tiff(const std::string& bytes, const ReadOptions& options
 }
 inline Image image_in(const std::string& bytes, const ReadOptions& options = {}) {
   return std::get<Image>(read_tiff(bytes, options).data);
-}
-
-inline std::string zipped(const std::string& bytes) {
-  uLongf size = compressBound(bytes.size());
-  std::string packed(size, '\0');
-  compress(reinterpret_cast<Bytef*>(packed.data()), &size,
-           reinterpret_cast<const Bytef*>(bytes.data()), bytes.size());
-  packed.resize(size);
-  return packed;
 }
 
 }  // namespace ph::test
