@@ -58,13 +58,13 @@ double parse_number(std::string_view option, std::string_view text) {
   return read.value == 0 ? 0.0 : read.value;
 }
 
-std::vector<double> parse_numbers(std::string_view option, std::string_view text,
-                                  std::size_t count) {
+std::vector<double> parse_numbers(std::string_view option, std::string_view text, std::size_t count,
+                                  std::string_view hint) {
   std::vector<double> numbers;
   for_each_part(text, [&](std::string_view part) {
     const Read read = read_number(part);
     if (!read.ok || !read.rest.empty() || std::isnan(read.value))
-      reject(option, text, "numbers separated by commas");
+      reject(option, text, "numbers separated by commas", hint);
     numbers.push_back(read.value == 0 ? 0.0 : read.value);
   });
   if (count != 0 && numbers.size() != count)

@@ -15,9 +15,9 @@ namespace ph::app {
 /// A number. `inf` is accepted, but NaN is not.
 double parse_number(std::string_view option, std::string_view text);
 /// Several numbers separated by commas. @param count the required number of values; 0 means one or
-/// more.
+/// more. @param hint advice for a text that is not a list of numbers.
 std::vector<double> parse_numbers(std::string_view option, std::string_view text,
-                                  std::size_t count = 0);
+                                  std::size_t count = 0, std::string_view hint = {});
 /// A whole number from `least` to `most`.
 std::int64_t parse_integer(std::string_view option, std::string_view text, std::int64_t least,
                            std::int64_t most = INT64_MAX);

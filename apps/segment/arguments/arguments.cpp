@@ -52,7 +52,8 @@ void add_input_options(app::Options& options, Arguments& a) {
   CLI::Option* intrinsics = options.value(
       {"--intrinsics", kOfDepth}, "FX,FY,CX,CY",
       "focal lengths and principal point of the depth image, pixels", [&a](const std::string& v) {
-        const auto k = app::parse_numbers("--intrinsics", v, 4);
+        const auto k = app::parse_numbers("--intrinsics", v, 4,
+                                          "--camera takes a file or the name of a camera");
         a.image.camera = Camera{{k[0], k[1], k[2], k[3]}};
       });
   CLI::Option* camera = options.path(

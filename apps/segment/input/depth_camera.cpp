@@ -24,10 +24,14 @@ void load_camera(DepthInput& image, app::Session& session) {
     std::vector<std::string_view> names;
     for (const CameraPreset& known : camera_presets()) names.push_back(known.name);
     const auto near = app::nearest_name(image.calibration, names);
+    const bool may_be_numbers =
+        image.calibration.find_first_not_of("0123456789.,+-eE ") == std::string::npos;
     throw Error(ErrorKind::no_input,
                 fmt::format("--camera: found '{}', expected an existing file or one of {}{}",
                             printable(image.calibration), fmt::join(names, ", "),
-                            near ? fmt::format("; did you mean '{}'?", *near) : ""));
+                            near             ? fmt::format("; did you mean '{}'?", *near)
+                            : may_be_numbers ? "; --intrinsics takes numbers"
+                                             : ""));
   }
   image.camera = calibrated_camera(image.calibration, note, session.context());
 }

@@ -64,6 +64,8 @@ def _camera(intrinsics: Any, name: Any, run: dict[str, Any]) -> _core.Camera:
     known = _core.camera_named(name) if isinstance(name, str) else None
     if known is not None:
         return known
+    if not isinstance(name, (str, bytes, os.PathLike)):
+        raise _options.refuse("camera", name, "a path or a name; intrinsics takes numbers")
     path = _options.path_of(name, "camera")
     if not os.path.exists(path):
         raise MissingInputError(f"camera: found {os.fsdecode(path)!r}, expected an existing file "
@@ -74,6 +76,9 @@ def _camera(intrinsics: Any, name: Any, run: dict[str, Any]) -> _core.Camera:
 def _intrinsics(given: Any) -> list[float]:
     """FX, FY, CX, CY; or a camera matrix as in OpenCV."""
     expected = "fx, fy, cx, cy, or the 3 x 3 matrix [[fx, 0, cx], [0, fy, cy], [0, 0, 1]]"
+    if isinstance(given, (str, bytes, os.PathLike)):
+        raise _options.refuse("intrinsics", given,
+                              f"{expected}; camera takes a file or the name of a camera")
     numbers = _arrays.as_float64(_arrays.as_array(given, "intrinsics"), "intrinsics")
     if numbers.shape == (3, 3):
         fx, fy, cx, cy = (float(numbers[place]) for place in ((0, 0), (1, 1), (0, 2), (1, 2)))

@@ -116,6 +116,14 @@ TEST_F(DepthImages, CamerasByFile) {
   EXPECT_EQ(run("d.png --camera odd.yaml"), 65);
   EXPECT_TRUE(notes("odd.yaml:5:1: lens model, found \"odd\"")) << err();
   EXPECT_EQ(run("d.png --camera missing.yaml"), 66);
+  EXPECT_FALSE(notes("--intrinsics")) << err();
+  EXPECT_EQ(run("d.png --camera 260,260,159.5,119.5"), 66);
+  EXPECT_TRUE(notes("; --intrinsics takes numbers")) << err();
+  EXPECT_EQ(run("d.png --intrinsics c.yaml"), 64);
+  EXPECT_TRUE(
+      notes("--intrinsics: found 'c.yaml', expected numbers separated by commas; --camera "
+            "takes a file or the name of a camera"))
+      << err();
   EXPECT_EQ(run("d.png --camera c.yaml" + intrinsics_), 64);
   EXPECT_EQ(run("scene.pcd --camera c.yaml"), 64);
 }

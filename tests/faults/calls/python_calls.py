@@ -273,6 +273,8 @@ CALLS = [(room, *row) for room, rows in {
         ("ph.delay_embedding([1, 2, 3], 2, 0)", "UsageError", "delay: found 0"),
         ("ph.segment(POINTS, crop=[NAN] * 6)", "UsageError", "crop: found"),
         ("ph.segment(IMAGE, intrinsics=[0, 1, 1, 1])", "UsageError", "focal lengths 0 and 1"),
+        ("ph.segment(IMAGE, intrinsics='c.yaml')", "UsageError", "'c.yaml'.*camera takes a file"),
+        ("ph.segment(IMAGE, camera=[1, 1, 1, 1])", "UsageError", "camera: found .*intrinsics takes numbers"),
         ("ph.segment(IMAGE, intrinsics=np.eye(4))", "UsageError", "intrinsics: found"),
         ("ph.segment(IMAGE, intrinsics=[1, 1, 1, 1], camera='xtion')", "UsageError", "camera: cannot be combined with intrinsics"),
         ("ph.segment(POINTS, previous=3)", "UsageError", "previous: found 3"),

@@ -169,6 +169,8 @@ SEGMENT = [
     (49, ["--depth", "d.png"], "found both INPUT and --depth"),
     (49, ["--intrinsics", "1,1,0,0"], "--intrinsics"),
     (49, ["--intrinsics", "1,1,0"], "--intrinsics"),
+    (49, ["--intrinsics", "camera.yaml"], "--camera takes a file"),
+    (49, ["--intrinsics", "kinect-v1"], "--camera takes a file or the name"),
     (49, ["--depth-scale", "0"], "--depth-scale"),
     (49, ["--depth-scale", "0.001"], "if a unit is 0.001 m, the scale is 1000"),
     (49, ["--labels", "x.txt"], "--labels"),
