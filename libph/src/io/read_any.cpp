@@ -105,19 +105,6 @@ Format format_of_text(const Input& input, const ReadOptions& options) {
   return guess.format;
 }
 
-// The note on a file that was taken for a triangle of distances because of its name alone. Empty if
-// it cannot hold points of 3 to 5 numbers.
-std::string note_on_triangle(const Input& input) {
-  for (const std::size_t width : {4, 3, 5}) {  // KITTI, x y z, nuScenes
-    const std::size_t each = width * sizeof(float);
-    if (input.size() == 0 || input.size() % each != 0) continue;
-    return fmt::format("a file named .bin: read as distances; {} reads {} points of {} numbers",
-                       mark(Setting::raw_points, fmt::format("{}", width)), input.size() / each,
-                       width);
-  }
-  return {};
-}
-
 // Refuses options that the format of an input does not support.
 void check_part(const Input& input, Format format, const ReadOptions& options) {
   const auto refuse = [&](Setting setting, std::string_view meant_for) {
@@ -234,8 +221,8 @@ ReadResult read_any(const Input& input, Format format, const ReadOptions& option
     if (known == Format::points) detail::refuse_bytes(input);
     format = known ? *known : format_of_text(input, inner);
     if (format == Format::binary)
-      if (const std::string text = note_on_triangle(input); !text.empty())
-        detail::note(inner, text);
+      if (const std::string way = detail::way_to_raw_points(input); !way.empty())
+        detail::note(inner, "a file named .bin: read as distances; " + way);
   }
   check_part(input, format, options);
   const FormatInfo& info = format_info(format);

@@ -167,7 +167,11 @@ class Options(ProgramTest):
             self.assertIn(what, self.expect(code, "scan.bin", *arguments).stderr)
         self.write("triangle.bin", struct.pack("<120f", *range(120)))
         note = self.expect(0, "triangle.bin").stderr
-        self.assertIn("read as distances; --raw-points 4 reads 30 points of 4 numbers", note)
+        self.assertIn("read as distances; --raw-points 4 reads 30 points of 4 numbers; 3, 5 and 6", note)
+        self.write("scan.bin", struct.pack("<120f", -1, *range(119)))
+        refused = self.expect(65, "scan.bin").stderr
+        self.assertIn("negative distance", refused)
+        self.assertIn("--raw-points 4 reads 30 points of 4 numbers; 3, 5 and 6", refused)
 
     def test_meshes_with_seams(self):
         # The two triangles of a square, each with its own vertices.

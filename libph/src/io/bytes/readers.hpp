@@ -68,6 +68,10 @@ bool is_text(std::string_view bytes);
 /// Refuses bytes that are not text and have no magic number, and names the options that read them.
 void refuse_bytes(const Input& input);
 
+/// The setting that reads a file of float32 as points of 4, 3, 5 or 6 numbers, for a message; empty
+/// if its size fits none of them.
+std::string way_to_raw_points(const Input& input);
+
 /// True if the first line of a set of points is the number of points, as in PTS.
 bool is_counted(const Input& input);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Reads triangles of distance matrices, as text and as float32.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -148,6 +149,23 @@ DistanceMatrix read_triangle(const Input& input, const ReadOptions& options, boo
 
 }  // namespace
 
+std::string detail::way_to_raw_points(const Input& input) {
+  std::vector<std::size_t> widths;
+  for (const std::size_t width : {4, 3, 5, 6})  // KITTI, x y z, nuScenes, x y z with normals
+    if (input.size() > 0 && input.size() % (width * sizeof(float)) == 0) widths.push_back(width);
+  if (widths.empty()) return {};
+  const std::size_t numbers = input.size() / sizeof(float), first = widths.front();
+  std::string way = fmt::format("{} reads {} point{} of {} numbers",
+                                mark(Setting::raw_points, fmt::format("{}", first)),
+                                numbers / first, numbers == first ? "" : "s", first);
+  widths.erase(widths.begin());
+  if (widths.empty()) return way;
+  const std::size_t last = widths.back();
+  widths.pop_back();
+  return way + fmt::format("; {}{}{} also divide{} its {} numbers", fmt::join(widths, ", "),
+                           widths.empty() ? "" : " and ", last, widths.empty() ? "s" : "", numbers);
+}
+
 DistanceMatrix read_lower_distances(const Input& input, const ReadOptions& options) {
   return read_triangle(input, options, true);
 }
@@ -159,7 +177,8 @@ DistanceMatrix read_upper_distances(const Input& input, const ReadOptions& optio
 DistanceMatrix read_binary_distances(const Input& input, const ReadOptions& options) {
   if (input.size() == 0) return detail::no_points(input, options);
   // Points are often in files with the same extension, for example those of laser scanners.
-  const std::string way_to_points = mark(Setting::raw_points, "D") + " reads points";
+  std::string way_to_points = detail::way_to_raw_points(input);
+  if (way_to_points.empty()) way_to_points = mark(Setting::raw_points, "D") + " reads points";
   const std::size_t count = input.size() / sizeof(float);
   const auto points = points_of_pairs(count);
   if (input.size() % sizeof(float) != 0 || !points) {

@@ -263,14 +263,24 @@ TEST(ReadRaw, PointsThatPassForATriangleOfDistances) {
   EXPECT_EQ(std::get<DistanceMatrix>(result.data).size(), 16);
   ASSERT_EQ(result.notes.size(), 1U);
   EXPECT_EQ(result.notes[0].str(),
-            "a file named .bin: read as distances; raw_points 4 reads 30 points of 4 numbers");
+            "a file named .bin: read as distances; raw_points 4 reads 30 points of 4 numbers; 3, 5 "
+            "and 6 also divide its 120 numbers");
   EXPECT_TRUE(read_any(Input::view(bytes, "v.bin"), Format::binary).notes.empty());
   bytes.replace(8, 4, le(-3.0F));
   EXPECT_TRUE(contains(bad_data(read), "byte 8: negative distance"));
-  EXPECT_TRUE(contains(bad_data(read), "raw_points D reads points"));
+  EXPECT_TRUE(contains(bad_data(read), "raw_points 4 reads 30 points of 4 numbers; 3, 5 and 6"));
   bytes.resize(464);
   EXPECT_TRUE(contains(bad_data(read), "truncated or not a triangle"));
+  EXPECT_TRUE(contains(bad_data(read), "raw_points 4 reads 29 points of 4 numbers"));
+  bytes.resize(460);  // 115 floats, points of nuScenes
+  EXPECT_TRUE(contains(bad_data(read), "raw_points 5 reads 23 points of 5 numbers"));
+  bytes.resize(28);
   EXPECT_TRUE(contains(bad_data(read), "raw_points D reads points"));
+  bytes = le(1.0F) + le(2.0F) + le(2.5F);
+  EXPECT_TRUE(contains(read().notes.at(0).str(), "raw_points 3 reads 1 point of 3 numbers"));
+  bytes.clear();
+  for (int i = 0; i < 36; ++i) bytes += le(static_cast<float>(i));  // a triangle of 9 points
+  EXPECT_TRUE(contains(read().notes.at(0).str(), "4 numbers; 3 and 6 also divide its 36 numbers"));
 }
 
 TEST(ReadClouds, XyzAndPts) {
