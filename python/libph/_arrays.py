@@ -272,8 +272,8 @@ def _fields_of(data: NDArray[Any], name: str) -> NDArray[np.float64]:
 
 
 def _warn_of_columns(data: Any, points: NDArray[Any], name: str) -> None:
-    """Warns of columns that are probably not coordinates: columns of a data frame beside x and y, or
-    whole numbers beside three columns of fractions."""
+    """Warns of columns that are probably not coordinates: columns of a data frame beside x and y,
+    latitudes and longitudes, or whole numbers beside three columns of fractions."""
     names = [str(column) for column in getattr(data, "columns", ())]
     axes = [column for column in names if column.lower() in ("x", "y", "z")]
     found = [column.lower() for column in axes]
@@ -283,6 +283,13 @@ def _warn_of_columns(data: Any, points: NDArray[Any], name: str) -> None:
         _warn(f"{name}: read {' and '.join([', '.join(shown[:-1]), shown[-1]] if shown[1:] else shown)} "
               f"as {'a coordinate' if len(others) == 1 else 'coordinates'}; {name}[{axes}] leaves "
               f"{'it' if len(others) == 1 else 'them'} out")
+    degrees = [[column for column in names if column.lower() in known] for known in
+               (("lat", "latitude"), ("lon", "lng", "long", "longitude"))]
+    if [len(columns) for columns in degrees] == [1, 1]:
+        (lat,), (lon,) = degrees
+        _warn(f"{name}: read {lat} and {lon} as coordinates of the plane, but differences of degrees "
+              f"are not distances; (cos {lat} cos {lon}, cos {lat} sin {lon}, sin {lat}) is the "
+              "point on the unit sphere")
     rows, columns = points.shape
     if names or rows < 8 or not 3 < columns <= 7 or points.dtype.kind != "f":
         return

@@ -68,6 +68,14 @@ def test_columns_of_a_data_frame_are_named():
     bars_of(frame.rename(columns={"x": "a"}))
 
 
+def test_latitudes_and_longitudes_are_no_distances():
+    pd = pytest.importorskip("pandas")
+    places = pd.DataFrame({"Lat": XYZ[:, 0], "lng": XYZ[:, 1]})
+    with pytest.warns(UserWarning, match=r"Lat and lng .*\(cos Lat cos lng, cos Lat sin lng, sin Lat\)"):
+        ph.rips(places)
+    bars_of(places.rename(columns={"lng": "height"}))
+
+
 def test_colour_pictures_and_organised_clouds_are_named():
     picture = RNG.integers(0, 255, (24, 20, 3)).astype("u1")
     for image in (picture, picture / 255):

@@ -26,6 +26,17 @@ TextTable read_text_table(const Input& input, Allow allow, const ReadOptions& op
 /// image with one axis.
 Image read_grid(const Input& input, const ReadOptions& options);
 
+/// Adds a note if the first column was read as data but may be an index, or if the first row was
+/// read as data but may be a header.
+void tell_of_counts(const Input& input, const TableLayout& layout, PointsView rows,
+                    const ReadOptions& options);
+/// Adds a note if points without a header have three columns of fractions and then only columns of
+/// whole numbers, such as an intensity, a colour or a label.
+void tell_of_whole_columns(PointsView points, const ReadOptions& options);
+/// Adds a note for columns whose names are not names of coordinates, for latitudes and longitudes
+/// and, without a header, for columns of whole numbers.
+void tell_of_columns(const TableLayout& layout, PointsView rows, const ReadOptions& options);
+
 /// Depending on options.nan, either removes the rows with a NaN and reports these rows, or throws.
 /// @param holes true if rows with a NaN are holes of a point cloud, which are always removed.
 Points without_nan_rows(Points points, const Input& input, const ReadOptions& options, bool holes);

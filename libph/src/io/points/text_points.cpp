@@ -2,145 +2,19 @@
 #include "libph/src/io/bytes/readers.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
 #include "libph/src/io/points/npy_header.hpp"
 #include "libph/src/io/tables/array.hpp"
-#include "ph/detail/core/lower_case.hpp"
 #include "ph/detail/io/table.hpp"
 #include "ph/io/cloud.hpp"
 
 namespace ph {
 
 namespace {
-
-// True if a column counts the rows, from 0 or from 1.
-bool counts_rows(PointsView points, Index column) {
-  for (Index i = 0; i < points.rows(); ++i)
-    if (points(i, column) != points(0, column) + static_cast<double>(i)) return false;
-  return points(0, column) == 0 || points(0, column) == 1;
-}
-
-// True if a column has the name of a coordinate or of a time.
-bool names_coordinate(std::string_view name) {
-  constexpr std::array<std::string_view, 10> kNames{"x", "y", "z", "X",    "Y",
-                                                    "Z", "t", "T", "time", "Time"};
-  return std::ranges::find(kNames, name) != kNames.end();
-}
-
-// True if the first row may be a header that numbers the columns: 0, 1, 2, … or 1, 2, 3, …. A row
-// of one or two integers may be a header only if one of the next rows contains a fraction.
-bool may_be_header(PointsView rows) {
-  const Index columns = rows.cols();
-  if (rows.rows() < 2 || columns == 0 || (rows(0, 0) != 0 && rows(0, 0) != 1)) return false;
-  for (Index k = 1; k < columns; ++k)
-    if (rows(0, k) != rows(0, 0) + static_cast<double>(k)) return false;
-  if (columns > 2) return true;
-  for (Index i = 1; i < std::min<Index>(rows.rows(), 9); ++i)
-    for (Index k = 0; k < columns; ++k)
-      if (rows(i, k) != std::floor(rows(i, k))) return true;
-  return false;
-}
-
-// True if the first row consists of digits and separators, as a header that numbers the columns
-// does. A cell such as 0.0 is always a value.
-bool begins_with_digits(const Input& input) {
-  TextLines lines(input);
-  return lines.next() &&
-         lines.line().find_first_not_of("0123456789\",; \t") == std::string_view::npos;
-}
-
-// Adds a note if the first column was read as data but may be an index, or if the first row was
-// read as data but may be a header.
-void tell_of_counts(const Input& input, const detail::TableLayout& layout, PointsView rows,
-                    const ReadOptions& options) {
-  constexpr Index kFewest = 8;  // in this many rows, a column rarely counts the rows by chance
-  if (!options.columns.empty()) return;
-  const bool is_image = options.array == ArrayMeaning::image;
-  const bool has_name = !layout.header.empty() && layout.header.size() == layout.width;
-  const bool may_be_index =
-      !layout.names_rows && !(has_name && names_coordinate(layout.header.front()));
-  if (may_be_index && rows.rows() >= kFewest && rows.cols() > 1 && counts_rows(rows, 0)) {
-    detail::note(
-        options,
-        fmt::format("the first column{} holds row numbers and is read as {}; {} leaves it out",
-                    has_name ? fmt::format(", {},", printable(layout.header.front(), 40)) : "",
-                    is_image ? "values" : "a coordinate",
-                    mark(Setting::columns, fmt::format("2-{}", rows.cols()))));
-  }
-  if (layout.header.empty() && may_be_header(rows) && begins_with_digits(input))
-    detail::note(options,
-                 fmt::format("the first row {} and is read as {}; remove it if it is a header",
-                             rows.cols() == 1 ? "is a whole number" : "holds column numbers",
-                             is_image ? "values" : "a point"));
-}
-
-// "a", "a and b" or "a, b and c".
-std::string listed(std::vector<std::string> words) {
-  if (words.size() == 1) return words.front();
-  const std::string last = std::move(words.back());
-  words.pop_back();
-  return fmt::format("{} and {}", fmt::join(words, ", "), last);
-}
-
-// Adds a note if a table names x and y, possibly z, and other columns, which are read as
-// coordinates as well.
-void tell_of_other_columns(const detail::TableLayout& layout, const ReadOptions& options) {
-  if (!options.columns.empty() || layout.header.size() != layout.width) return;
-  std::vector<std::string> coordinates, others;
-  for (const std::size_t k : layout.columns) {
-    const std::string& name = layout.header[k];
-    const std::string lower = lower_case(name);
-    const bool is_coordinate = lower == "x" || lower == "y" || lower == "z";
-    (is_coordinate ? coordinates : others).push_back(is_coordinate ? name : printable(name, 40));
-  }
-  const auto has = [&](std::string_view name) {
-    return std::ranges::count_if(coordinates,
-                                 [&](const auto& found) { return lower_case(found) == name; }) == 1;
-  };
-  if (others.empty() || !has("x") || !has("y") || coordinates.size() != (has("z") ? 3U : 2U))
-    return;
-  constexpr std::size_t most_named = 3;
-  const std::size_t named = others.size() > most_named ? most_named - 1 : others.size();
-  std::vector<std::string> words(others.begin(),
-                                 others.begin() + static_cast<std::ptrdiff_t>(named));
-  if (named < others.size()) words.push_back(fmt::format("{} more", others.size() - named));
-  detail::note(options,
-               fmt::format("{} {} read as {}; {} leaves {} out", listed(words),
-                           others.size() == 1 ? "is" : "are",
-                           others.size() == 1 ? "a coordinate" : "coordinates",
-                           mark(Setting::columns, fmt::format("{}", fmt::join(coordinates, ","))),
-                           others.size() == 1 ? "it" : "them"));
-}
-
-// Adds a note if points without a header have three columns of fractions and then only columns of
-// whole numbers, such as an intensity, a colour or a label.
-void tell_of_whole_columns(PointsView points, const ReadOptions& options) {
-  constexpr Index kFewest = 8, kSpace = 3, kMost = 7;  // x y z, intensity, red green blue
-  const Index columns = points.cols();
-  if (!options.columns.empty() || points.rows() < kFewest || columns <= kSpace || columns > kMost)
-    return;
-  for (Index k = 0; k < columns; ++k) {
-    bool is_whole = true;
-    for (Index i = 0; i < points.rows() && is_whole; ++i)
-      is_whole = std::floor(points(i, k)) == points(i, k);
-    if (is_whole != (k >= kSpace)) return;
-  }
-  const std::string which =
-      columns == kSpace + 1 ? "column 4 has" : fmt::format("columns 4 to {} have", columns);
-  detail::note(
-      options,
-      fmt::format(
-          "{} only whole numbers, unlike the first three, and {} read as {}; {} leaves {} out",
-          which, columns == kSpace + 1 ? "is" : "are",
-          columns == kSpace + 1 ? "a coordinate" : "coordinates", mark(Setting::columns, "1-3"),
-          columns == kSpace + 1 ? "it" : "them"));
-}
 
 // Reads the numbers of a table, without an index column.
 detail::TextTable table_of_points(const Input& input, const ReadOptions& options) {
@@ -150,9 +24,8 @@ detail::TextTable table_of_points(const Input& input, const ReadOptions& options
   detail::TextTable table = detail::read_text_table(
       input, options.nan == NanPolicy::drop ? Allow::missing : Allow::finite, options, false,
       &layout);
-  tell_of_counts(input, layout, table.rows, as_points);
-  tell_of_other_columns(layout, options);
-  if (layout.header.empty()) tell_of_whole_columns(table.rows, options);
+  detail::tell_of_counts(input, layout, table.rows, as_points);
+  detail::tell_of_columns(layout, table.rows, options);
   return table;
 }
 

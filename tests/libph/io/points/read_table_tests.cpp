@@ -72,6 +72,22 @@ TEST(ReadTable, ColumnsBesideCoordinatesAreNamed) {
             (Points{{0.5, 1.25, 2}, {0.25, 1, 3}}));
 }
 
+TEST(ReadTable, LatitudesAndLongitudesAreNoDistances) {
+  const std::string sphere = "are read as coordinates of the plane, but differences of degrees";
+  for (const char* text : {"lat,lon\n1,2\n3,4\n", "Longitude;name;LATITUDE\n1;2;3\n4;5;6\n",
+                           "depth lat lng\n1 2 3\n4 5 7\n"})
+    EXPECT_TRUE(says(any(text), sphere)) << text;
+  EXPECT_TRUE(
+      says(any("long,lat\n1,2\n3,4\n"),
+           "(cos lat cos long, cos lat sin long, sin lat) is the point on the unit sphere"));
+  const std::string places = "city,lat,lon\na,1,2\nb,3,4\n";
+  EXPECT_TRUE(says(any(places, {.columns = {"lat", "lon"}}), sphere));
+  for (const char* text : {"lat,x\n1,2\n3,4\n", "flat,long\n1,2\n3,4\n",
+                           "lat,latitude,lon\n1,2,3\n4,5,6\n", "1,2\n3,4\n"})
+    EXPECT_FALSE(says(any(text), sphere)) << text;
+  EXPECT_FALSE(says(any(places, {.columns = {"lat"}}), sphere));
+}
+
 TEST(ReadTable, WholeNumbersBesideFractionsAreNamed) {
   std::string four, six, fractions, two;
   for (int i = 0; i < 8; ++i) {
