@@ -339,15 +339,19 @@ def as_image(data: Any, name: str = "image") -> NDArray[Any]:
 
 
 def _warn_of_colours(array: NDArray[Any], name: str) -> None:
-    """Warns of an array that may be a colour picture: three axes, the last one with 3 or 4 entries,
-    bytes or numbers from 0 to 1."""
-    if array.ndim != 3 or array.shape[2] not in (3, 4) or min(array.shape[:2]) < 16:
+    """Warns of an array that may be a colour picture: three axes, the last or the first one with 3
+    or 4 entries, bytes or numbers from 0 to 1."""
+    places = [("..., 0", -1, array.shape[:2]), ("0", 0, array.shape[1:])]
+    found = [(first, array.shape[axis]) for first, axis, size in places if array.ndim == 3
+             and array.shape[axis] in (3, 4) and min(size) >= 16]
+    if not found:
         return
+    first, channels = found[0]
     with np.errstate(invalid="ignore"):
         is_share = array.dtype.kind == "f" and bool(((array >= 0) & (array <= 1)).all())
     if array.dtype == np.uint8 or is_share:
         _warn(f"{name}: read as a volume of {' x '.join(map(str, array.shape))} voxels; if it is a "
-              f"picture with {array.shape[2]} channels, take one channel, {name}[..., 0]")
+              f"picture with {channels} channels, take one channel, {name}[{first}]")
 
 
 def as_values(data: Any, name: str, count: int | None = None, of: str = "number"

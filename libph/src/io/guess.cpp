@@ -24,6 +24,10 @@ constexpr Index kMostCoordinates = 16;
 // columns.
 constexpr Index kSlender = 4;
 
+// The smallest width and height of an array that may be a picture whose first axis has the
+// channels.
+constexpr Index kSmallestPicture = 16;
+
 // Recognises a triangle of a matrix by the lengths of the first rows, because no other table may
 // have rows of different lengths. A colon indicates a list of simplices.
 std::optional<Format> triangle_of(const Input& input) {
@@ -101,11 +105,18 @@ ArrayGuess guess_array(const Input& input, const ReadOptions& options) {
               fmt::format("an array of three axes: read as a volume; if it holds {} sets of "
                           "{} x {} points, take one set, a[i]",
                           npy.shape[0], rows, columns)};
-    if (npy.kind == 'u' && npy.array.type.size == 1 && (columns == 3 || columns == 4))
-      return {ArrayMeaning::image,
-              fmt::format("an array of three axes: read as a volume; if it is a picture with {} "
-                          "channels, take one channel, a[..., 0]",
-                          columns)};
+    const bool are_bytes = npy.kind == 'u' && npy.array.type.size == 1;
+    const auto picture_of = [](Index channels, std::string_view first) {
+      return ArrayGuess{
+          ArrayMeaning::image,
+          fmt::format("an array of three axes: read as a volume; if it is a picture with {} "
+                      "channels, take one channel, {}",
+                      channels, first)};
+    };
+    if (are_bytes && (columns == 3 || columns == 4)) return picture_of(columns, "a[..., 0]");
+    if (const Index sheets = npy.shape[0];
+        are_bytes && (sheets == 3 || sheets == 4) && std::min(rows, columns) >= kSmallestPicture)
+      return picture_of(sheets, "a[0]");
   }
   if (npy.shape.size() != 2 || npy.count == 0 || !o.columns.empty()) return otherwise;
   const Index rows = npy.shape[0], columns = npy.shape[1];

@@ -81,8 +81,16 @@ def test_colour_pictures_and_organised_clouds_are_named():
     for image in (picture, picture / 255):
         with pytest.warns(UserWarning, match=r"24 x 20 x 3 voxels.*image\[..., 0\]"):
             ph.cubical(image)
+    for image in (np.moveaxis(picture, 2, 0), np.moveaxis(picture, 2, 0) / 255):
+        with pytest.warns(UserWarning, match=r"3 x 24 x 20 voxels.*3 channels.*image\[0\]"):
+            ph.cubical(image)
+    with pytest.warns(UserWarning, match=r"4 channels, take one channel, image\[0\]"):
+        ph.cubical(RNG.integers(0, 255, (4, 16, 17)).astype("u1"))
     with warnings.catch_warnings():
         warnings.simplefilter("error")
+        ph.cubical(np.moveaxis(picture, 2, 0)[:2])
+        ph.cubical(np.moveaxis(picture, 2, 0)[:, :9])
+        ph.cubical(np.moveaxis(picture, 2, 1))
         ph.cubical(picture[..., 0])
         ph.cubical(picture.astype("i2"))
         ph.cubical(picture[:9])

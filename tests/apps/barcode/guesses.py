@@ -203,6 +203,14 @@ class Arrays(GuessTest):
         self.h0("one.npy", note="signal of 72 values")
         self.write("batch.npy", files.array((2, 12, 3), flat(self.points)))
         self.h0("batch.npy", note="three axes: read as a volume")
+        for shape, note in (((40, 40, 3), r"3 channels, take one channel, a\[\.\.\., 0\]"),
+                            ((3, 40, 40), r"3 channels, take one channel, a\[0\]"),
+                            ((4, 16, 30), r"4 channels, take one channel, a\[0\]")):
+            self.write("colours.npy", files.array(shape, [k % 251 for k in range(math.prod(shape))], "|u1"))
+            self.h0("colours.npy", note=note)
+        for shape in ((3, 15, 40), (5, 40, 40), (40, 3, 40)):
+            self.write("volume.npy", files.array(shape, [k % 251 for k in range(math.prod(shape))], "|u1"))
+            self.h0("volume.npy", silent=["channel"])
 
     def test_distances(self):
         d = [[math.dist(p, q) for q in self.points] for p in self.points]
