@@ -5,6 +5,7 @@
 #include <string>
 
 #include "libph/src/io/bytes/readers.hpp"
+#include "libph/src/io/clouds/cloud_rows.hpp"
 #include "ph/detail/io/table.hpp"
 #include "ph/io/read.hpp"
 
@@ -86,6 +87,7 @@ bool is_text(std::string_view bytes) {
 std::optional<Format> format_by_content(const Input& input) {
   if (const auto format = by_magic(input)) return *format;
   if (const auto format = by_extension(input)) return *format;
+  if (is_molecule(input)) return Format::xyz;
   if (is_text(input.text())) return std::nullopt;
   // Bytes without a magic number may be in Ripser's binary format. For any other bytes, the reader
   // of text reports the problem.

@@ -201,6 +201,8 @@ def trailing():
             ("gzip", gzipped(TEXT) + TEXT)):
         name = f"{len(content)} bytes that begin {content[:4]!r}"
         yield refused(41, form, name, content, more)
+    yield refused(41, "xyz", "a second molecule", "1\n\nO 0 0 1\n1\n\nO 1 0 1\n",
+                  "input.xyz:4:1: trailing data.*each into its own file")
     yield refused(41, "pts", "a second count", "1\n0 0 1\n1\n1 0 1\n", "input.pts:3:1: ragged row")
 
 

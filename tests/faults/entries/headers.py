@@ -195,6 +195,8 @@ def disagreeing():
     yield refused(35, "pgm", "above the largest grey, P5", b"P5 1 1 9\n\xff", "grey value out of range")
     yield refused(35, "pgm", "grey of 0", "P2 1 1 0\n0\n", "largest grey value out of range")
     yield refused(35, "pgm", "grey of 65536", "P2 1 1 65536\n0\n", "largest grey value out of range")
+    yield refused(35, "xyz", "an atom less", "3\nwater\nO 0.5 0.25 1.5\nH 1 0.5 1.5\n",
+                  "truncated, found 2 atoms, expected 3 atoms, as line 1 says")
     yield refused(35, "pts", "one point less", "3\n0 0 1\n1 0 1\n", "truncated, found 2 points")
     yield refused(35, "npy", "no shape", npy_header("{'descr': '<f8', 'fortran_order': False, }"),
                   "incomplete NPY header")

@@ -36,7 +36,8 @@ Cloud read_ply(const Input& input, const ReadOptions& options = {});
 
 /// Text, one point per line: x y z, then more columns. A header line, if there is one, names the
 /// columns; without it columns 4 to 6 are red green blue if all are integers in 0…255, otherwise
-/// field_3, …. Coordinates are kept as float64. "nan" is a hole.
+/// field_3, …. Coordinates are kept as float64. "nan" is a hole. Of a molecule (the number of
+/// atoms, a line of text, then lines "C x y z"), the coordinates alone are read.
 Cloud read_xyz(const Input& input, const ReadOptions& options = {});
 
 /// PTS: the number of points on the first line, then lines of x y z, followed by an intensity (4

@@ -16,4 +16,12 @@ enum class RowSource { text, pts, array };
 Cloud cloud_of_rows(const TextTable& table, const Input& input, const ReadOptions& options,
                     RowSource source);
 
+/// True for a molecule as programs for chemistry write it: the number of atoms, a line of any text,
+/// then a line for each atom, with its element and its place.
+bool is_molecule(const Input& input);
+/// Reads the places of the atoms, and notes that the rest is left out. Precondition: is_molecule.
+/// @throws Error (bad_data) if there are more or fewer atoms than the first line says, or if the
+///         second line states another order of columns, as extended XYZ may.
+Cloud read_molecule(const Input& input, const ReadOptions& options);
+
 }  // namespace ph::detail

@@ -156,6 +156,7 @@ bool is_counted(const Input& input) {
 }  // namespace detail
 
 Cloud read_xyz(const Input& input, const ReadOptions& options) {
+  if (detail::is_molecule(input)) return detail::read_molecule(input, options);
   ReadOptions as_points = options;
   as_points.array = ArrayMeaning::points;
   as_points.columns.clear();

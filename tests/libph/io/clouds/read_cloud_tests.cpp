@@ -276,6 +276,48 @@ TEST(ReadXyz, LeavesAnIndexOut) {
   EXPECT_EQ(read_xyz(Input::view("id,x,y,z\n7,1,2,3\n", "c.csv")).fields.size(), 4U);
 }
 
+TEST(ReadXyz, TakesTheAtomsOfAMolecule) {
+  const std::string water =
+      "3\nwater, in # Å\nO 0 0 0.119\nH1\t0 0.763 -0.477\nH2 0 -0.763 -0.477\n";
+  const Points expected{{0, 0, 0.119}, {0, 0.763, -0.477}, {0, -0.763, -0.477}};
+  for (const char* name : {"w.xyz", "w.txt", "w"}) {
+    const ReadResult result = read_any(Input::view(water, name));
+    EXPECT_EQ(result.format, Format::xyz) << name;
+    EXPECT_EQ(std::get<Points>(result.data), expected) << name;
+    ASSERT_EQ(result.notes.size(), 1U) << name;
+    EXPECT_TRUE(contains(result.notes[0].str(), "a molecule of 3 atoms: line 2, \"water, in # "))
+        << name;
+    EXPECT_EQ(points_of(read_cloud(Input::view(water, name))), expected) << name;
+  }
+  const std::string salt =
+      "2\r\nLattice=\"5 0 0 0 5 0 0 0 5\" Properties=species:S:1:pos:R:3:charge:R:1\r\n"
+      "Na 0 0 0 1\r\nCl 2.5 0 0 -1";
+  const ReadResult result = read_any(Input::view(salt, "s.xyz"));
+  EXPECT_EQ(std::get<Points>(result.data), (Points{{0, 0, 0}, {2.5, 0, 0}}));
+  EXPECT_TRUE(contains(result.notes.at(0).str(), "the elements and the columns after z are left"));
+  EXPECT_EQ(points_of(read_xyz(Input::view("1\n\nHe 1 2 3", "a.xyz"))), (Points{{1, 2, 3}}));
+  const std::pair<std::string, const char*> faults[] = {
+      {"2\n\nC 0 0 0\nC 1 0 0\nC 2 0 0\n",
+       "m.xyz:5:1: trailing data, found C 2 0 0, expected 2 atoms, as line 1 says; if there are "
+       "several molecules"},
+      {"1\n\nC 0 0 0\n1\n\nC 0 0 1\n", "m.xyz:4:1: trailing data, found 1, expected 1 atoms"},
+      {"3\n\nC 0 0 0\nC 1 0 0.5\n", "m.xyz:1:1: truncated, found at most 2, expected 3 atoms"},
+      {"3\n\nC 0.25 0.25 0.25\nC 1 0 0.5\n", "m.xyz:4:1: truncated, found 2 atoms, expected 3"},
+      {"9999999999999999\n\nC 0 0 0\n", "truncated, found at most 1"},
+      {"2\n\nC 0 0 0\n6 0 0 1\n", "m.xyz:4:1: atom without an element, found 6"},
+      {"2\n\nC 0 0 0\nC 0 zero 1\n", "m.xyz:4:5: not a number, found \"zero\""},
+      {"2\n\nC 0 0 0\nC 0 inf 1\n", "infinite coordinate of point 1"},
+      {"1\nProperties=species:S:1:forces:R:3:pos:R:3\nC 0 0 1 5 5 5\n",
+       "m.xyz:2:1: columns of a molecule, found Properties=species:S:1:forces"},
+      {"2\nlong\nCarbon 0 0 0\nC 0 0 1\n", "not a number, found \"long\""},
+      {"2\n\nC 0 0 x\nC 0 0 1\n", "not a number, found \"C\""},
+  };
+  for (const auto& [text, message] : faults) {
+    const std::string found = bad_data([&, t = text] { read_any(Input::view(t, "m.xyz")); });
+    EXPECT_TRUE(contains(found, message)) << found;
+  }
+}
+
 TEST(ReadNpyCloud, TakesPointsAndOrganisedPoints) {
   const auto cloud = [](const std::string& bytes) {
     return read_cloud(Input::view(bytes, "c.npy"));
