@@ -58,11 +58,16 @@ bool is_json_number(std::string_view word) {
 
 }  // namespace
 
-void JsonCursor::fail(std::size_t place, const Fault& fault) const {
+std::pair<std::size_t, std::size_t> JsonCursor::line_and_column(std::size_t place) const {
   const std::string_view before = text_.substr(0, place);
   const auto line = static_cast<std::size_t>(std::count(before.begin(), before.end(), '\n')) + 1;
   const std::size_t start = before.rfind('\n');
-  input_.fail_at(line, start == std::string_view::npos ? place + 1 : place - start, fault);
+  return {line, start == std::string_view::npos ? place + 1 : place - start};
+}
+
+void JsonCursor::fail(std::size_t place, const Fault& fault) const {
+  const auto [line, column] = line_and_column(place);
+  input_.fail_at(line, column, fault);
 }
 
 std::string JsonCursor::found() {

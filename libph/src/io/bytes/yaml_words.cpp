@@ -69,6 +69,14 @@ const YamlWords::Value* YamlWords::find(std::string_view path) const {
   return found == values_.end() ? nullptr : &found->second;
 }
 
+std::vector<std::string> YamlWords::owners_of(std::string_view key) const {
+  std::vector<std::string> owners;
+  for (const auto& [path, value] : values_)
+    if (path == key || (path.ends_with(key) && path[path.size() - key.size() - 1] == '.'))
+      owners.push_back(path.substr(0, path.size() - key.size()));
+  return owners;
+}
+
 void YamlWords::fail(std::size_t column, const Fault& fault) const {
   input_.fail_at(number_, column, fault);
 }
@@ -108,15 +116,20 @@ void YamlWords::take_key(std::string_view line, std::size_t indent) {
   while (!open_.empty() && open_.back().indent >= indent) open_.pop_back();
   std::string path = open_.empty() ? std::string() : open_.back().path + ".";
   path += lower_case(unquoted(trimmed(content.substr(0, colon))));
-  const auto [entry, is_new] = values_.emplace(path, Value{number_, indent + 1, {}});
-  if (!is_new) {
-    fail(indent + 1, {"a repeated key",
-                      printable(path, kShown),
-                      fmt::format("it only in line {}", entry->second.line),
-                      {}});
-  }
+  Value& value = add(path, indent + 1);
   open_.push_back({indent, std::move(path)});
-  take_value(entry->second, content.substr(colon + 1), indent + colon + 2);
+  take_value(value, content.substr(colon + 1), indent + colon + 2);
+}
+
+YamlWords::Value& YamlWords::add(const std::string& path, std::size_t column) {
+  const auto [entry, is_new] = values_.emplace(path, Value{number_, column, {}});
+  if (!is_new) {
+    fail(column, {"a repeated key",
+                  printable(path, kShown),
+                  fmt::format("it only in line {}", entry->second.line),
+                  {}});
+  }
+  return entry->second;
 }
 
 void YamlWords::take_value(Value& value, std::string_view rest, std::size_t column) {
@@ -142,11 +155,30 @@ void YamlWords::take_value(Value& value, std::string_view rest, std::size_t colu
   if (rest.front() == '{') {
     if (trimmed(rest).back() != '}')
       fail(column, {"mapping in braces", quoted(rest), "'}' at the end of the line", {}});
-    return;
+    rest = trimmed(rest);
+    return take_mapping(rest.substr(1, rest.size() - 2), column + 1);
   }
   if (rest.front() == '&' || rest.front() == '*')
     fail(column, {"anchor or alias", quoted(trimmed(rest)), "a value", "write the value itself"});
   value.words.push_back({unquoted(trimmed(rest)), number_, column});
+}
+
+/// Takes the keys and the values of a mapping in braces, unless it contains lists, mappings or
+/// quotes.
+void YamlWords::take_mapping(std::string_view content, std::size_t column) {
+  if (content.find_first_of("{}[]\"'") != content.npos) return;
+  for (std::size_t at = 0; at <= content.size();) {
+    const std::size_t length = std::min(content.find(',', at), content.size()) - at;
+    const std::string_view part = content.substr(at, length);
+    const std::size_t colon = part.find(": ");
+    if (colon != part.npos && !trimmed(part.substr(0, colon)).empty()) {
+      const std::size_t place = column + at + part.find_first_not_of(kBlank);
+      Value& value =
+          add(open_.back().path + "." + lower_case(trimmed(part.substr(0, colon))), place);
+      value.words.push_back({trimmed(part.substr(colon + 1)), number_, place});
+    }
+    at += length + 1;
+  }
 }
 
 /// Takes the words of a list up to the end of the list or of the line.

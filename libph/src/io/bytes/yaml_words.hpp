@@ -11,8 +11,9 @@ namespace ph::detail {
 
 /// The words in the first document of a YAML file. The class reads the part of YAML that
 /// calibration files use. This part consists of mappings by indentation, plain and quoted words,
-/// lists as `[a, b]` or with one `- a` per line, comments, and tags (which are ignored). Mappings
-/// in braces and blocks of text are skipped. Any other form is an error.
+/// lists as `[a, b]` or with one `- a` per line, flat mappings `{a: 1, b: 2}` in one line,
+/// comments, and tags (which are ignored). Other mappings in braces and blocks of text are skipped.
+/// Any other form is an error.
 class YamlWords {
  public:
   struct Word {
@@ -31,6 +32,8 @@ class YamlWords {
   /// Finds a value by its path in lower case, with dots between keys. Returns null if the value
   /// does not exist.
   const Value* find(std::string_view path) const;
+  /// The beginnings of all paths that end in this key: "" and "color." for `fx` and `color.fx`.
+  std::vector<std::string> owners_of(std::string_view key) const;
   const Input& input() const { return input_; }
 
  private:
@@ -42,6 +45,8 @@ class YamlWords {
   void take_key(std::string_view line, std::size_t indent);
   void take_value(Value& value, std::string_view rest, std::size_t column);
   void take_list(Value& value, std::string_view rest, std::size_t column);
+  void take_mapping(std::string_view content, std::size_t column);
+  Value& add(const std::string& path, std::size_t column);
   [[noreturn]] void fail(std::size_t column, const Fault& fault) const;
 
   const Input& input_;

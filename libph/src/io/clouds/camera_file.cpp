@@ -5,11 +5,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "libph/src/io/bytes/yaml_words.hpp"
 #include "libph/src/io/clouds/camera_file.hpp"
+#include "libph/src/io/clouds/camera_members.hpp"
 #include "ph/detail/core/floating.hpp"
 #include "ph/detail/io/camera.hpp"
 #include "ph/detail/io/table.hpp"
@@ -24,7 +27,8 @@ using detail::kMostPixels;
 
 /// Advice on a file that is not a camera.
 std::string what_it_is() {
-  return "a camera_info YAML file from ROS has image_width, image_height and camera_matrix; " +
+  return "a camera_info YAML file from ROS has image_width, image_height and camera_matrix, other "
+         "files have fx, fy, cx and cy; " +
          detail::way_to_intrinsics();
 }
 
@@ -34,6 +38,9 @@ class CameraYaml {
   explicit CameraYaml(const Input& input) : yaml_(input) {}
 
   Camera camera() const {
+    if (find_matrix() == nullptr)
+      if (const auto named = cameras_of_numbers(); !named.empty())
+        return detail::camera_of(named, yaml_.input());
     Camera camera;
     camera.width = whole({"image_width", "width"}, 1, kMostPixels);
     camera.height = whole({"image_height", "height"}, 1, kMostPixels);
@@ -45,7 +52,6 @@ class CameraYaml {
 
  private:
   using Names = std::initializer_list<std::string_view>;
-
   [[noreturn]] void fail(const YamlWords::Word& word, std::string what,
                          std::string expected) const {
     yaml_.input().fail_at(
@@ -71,6 +77,10 @@ class CameraYaml {
           {fmt::format("no {}", *names.begin()), {}, "a camera's calibration", what_it_is()});
     }
     return *value;
+  }
+
+  const YamlWords::Value* find_matrix() const {
+    return find({"camera_matrix.data", "camera_matrix", "k"});
   }
 
   double number(const YamlWords::Word& word) const {
@@ -105,7 +115,8 @@ class CameraYaml {
   }
 
   Intrinsics intrinsics() const {
-    const YamlWords::Value& value = require({"camera_matrix.data", "camera_matrix", "k"});
+    const YamlWords::Value* found = find_matrix();
+    const YamlWords::Value& value = found != nullptr ? *found : require({"camera_matrix.data"});
     const std::vector<double> k = numbers(value);
     if (k.size() != 9) {
       fail(value, {"camera matrix", fmt::format("{} numbers", k.size()), "9, row by row", {}});
@@ -113,6 +124,61 @@ class CameraYaml {
     return detail::intrinsics_of(std::span<const double, 9>(k),
                                  [&](const Fault& fault) { fail(value, fault); });
   }
+
+  /// The cameras of a file that has no matrix but fx, fy and the principal point: in its outermost
+  /// mapping, or under names such as color and depth.
+  std::vector<std::pair<std::string, detail::CameraMembers>> cameras_of_numbers() const {
+    std::vector<std::pair<std::string, detail::CameraMembers>> cameras;
+    for (const std::string& owner : yaml_.owners_of("fx")) {
+      const auto number_of = [&](std::string_view name) -> std::optional<double> {
+        const YamlWords::Value* value = find({owner + std::string(name)});
+        if (value == nullptr) return std::nullopt;
+        if (value->words.size() != 1) fail(value->words[1], "more than one number", "one");
+        return number(value->words.front());
+      };
+      detail::CameraMembers m;
+      m.fx = number_of("fx");
+      m.fy = number_of("fy");
+      m.is_bop = number_of("cx").has_value();
+      m.cx = number_of(m.is_bop ? "cx" : "ppx");
+      m.cy = number_of(m.is_bop ? "cy" : "ppy");
+      m.width = whole_or(owner + "width", 0, kMostPixels);
+      m.height = whole_or(owner + "height", 0, kMostPixels);
+      take_scale(m, {owner + "depth_scale", "depth_scale"});
+      if (!m.depth_scale) {
+        take_scale(m, {"depthmapfactor", "rgbd.depthmapfactor"});  // of ORB-SLAM: units per metre
+        m.is_bop = m.is_bop && !m.depth_scale;
+      }
+      cameras.emplace_back(owner.substr(0, owner.find_last_of('.')), std::move(m));
+    }
+    if (!cameras.empty()) refuse_coefficients();
+    return cameras;
+  }
+
+  void take_scale(detail::CameraMembers& m, Names names) const {
+    const YamlWords::Value* value = find(names);
+    if (value == nullptr) return;
+    m.depth_scale = number(value->words.front());
+    m.scale_place = {value->words.front().line, value->words.front().column};
+    if (!(*m.depth_scale > 0)) m.refuse_scale(yaml_.input());
+  }
+
+  /// Refuses lens coefficients beside fx, because files of this kind do not name their model.
+  /// Coefficients that are all zero are accepted.
+  void refuse_coefficients() const {
+    for (const std::string_view name :
+         {"k1", "k2", "k3", "k4", "k5", "k6", "p1", "p2", "d", "coeffs", "dist", "dist_coeffs",
+          "distortion", "distortion_coefficients"})
+      for (std::string path : yaml_.owners_of(name)) {
+        path += name;
+        const YamlWords::Value* value = find({path + ".data", path});
+        if (value == nullptr || std::ranges::all_of(value->words, is_zero)) continue;
+        fail(*value, {"lens coefficients", '"' + path + '"', "none, or only zeros",
+                      "rectify the image, and use a camera without distortion"});
+      }
+  }
+
+  static bool is_zero(const YamlWords::Word& word) { return detail::number_in(word.text) == 0.0; }
 
   static bool is_known(std::string_view model) {
     constexpr std::array<std::string_view, 6> kKnown{
@@ -127,9 +193,6 @@ class CameraYaml {
          {"dist_coeffs", "dist_coeff", "distcoeffs", "distcoeff", "dist_coefs", "distortion",
           "distortion_coeffs", "distortion_coefficient", "distortion_parameters", "dist"}) {
       const YamlWords::Value* value = find({std::string(name) + ".data", name});
-      const auto is_zero = [](const YamlWords::Word& word) {
-        return detail::number_in(word.text) == 0.0;
-      };
       if (value == nullptr || std::ranges::all_of(value->words, is_zero)) continue;
       fail(*value,
            {"lens coefficients", '"' + std::string(name) + '"', "distortion_coefficients", {}});

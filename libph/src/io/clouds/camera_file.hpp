@@ -20,7 +20,8 @@ Intrinsics intrinsics_of(std::span<const double, 9> matrix,
                          const std::function<void(const Fault&)>& fail);
 
 /// Reads JSON: Open3D (intrinsic_matrix), RealSense (fx, fy, ppx, ppy) or BOP (fx, fy, cx, cy; or
-/// cam_K for each picture, which must all be equal).
+/// cam_K). These members may be in objects with names, for example one per picture. All such
+/// objects must then be equal.
 Camera read_json_camera(const Input& input);
 /// Reads a camera matrix as text: 9 numbers, or the 16 numbers of a matrix of 4 x 4. The camera
 /// fits images of any size.

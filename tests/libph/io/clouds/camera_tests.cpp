@@ -158,7 +158,9 @@ TEST(Camera, FaultsNameTheirPlace) {
       {"", "c.yaml: no image_width"},
       {std::string("a\0b", 3), "not plain text"},
       {std::string(2 << 20, ' '), "found 2097152 bytes, expected at most 1048576"},
-      {"{\"width\": 640}", "not an Open3D camera"},
+      {"{\"width\": 640}", "not a camera, found no intrinsic_matrix, cam_K or fx"},
+      {"{\"intrinsic_matrix\": [9, 0, 0, 0, 9, 0, 4, 4, 1]}",
+       "not an Open3D camera, found no width"},
       {"{\"width\": 640, \"height\": 480, \"intrinsic_matrix\": [1, 0, 3, 0, 1, 3, 0, 0, 1]}",
        "c.yaml:1:51: intrinsic_matrix, found [1, 0, 3"},
   };
@@ -206,6 +208,80 @@ TEST(CameraFiles, ReadsFilesOfOtherPrograms) {
   EXPECT_EQ(bent.lens.coefficients[4], 2);
 }
 
+TEST(CameraFiles, ReadsCamerasWithNames) {
+  const struct {
+    const char* text;
+    double fx, cx;
+    Index width;
+    double scale;
+  } cases[] = {
+      // RealSense, a camera under the name of its stream.
+      {R"({"color": {"fx": 615.5, "fy": 615, "ppx": 312.5, "ppy": 239.5, "width": 640,
+                     "height": 480}, "depth_scale": 0.001, "serial": {"fw": [1]}})",
+       615.5, 312.5, 640, 1000},
+      {R"({"serial": "7", "depth": {"intrinsics": {"fx": 600.5, "fy": 600, "ppx": 320.5,
+           "ppy": 240, "width": 640, "height": 480, "model": "none", "coeffs": [0, 0]},
+           "depth_scale": 0.00025}})",
+       600.5, 320.5, 640, 4000},
+      {R"({"color": {"fx": 9.5, "fy": 9, "cx": 4.5, "cy": 4},
+           "depth": {"fx": 9.5, "fy": 9, "cx": 4.5, "cy": 4}, "width": 9, "height": 8})",
+       9.5, 4.5, 9, 0},
+      // The objects in a camera are not cameras.
+      {R"({"fx": 9.5, "fy": 9, "cx": 4.5, "cy": 4, "crop": {"fx": 1, "width": "all"}})", 9.5, 4.5,
+       0, 0},
+      // BOP, the entry of one picture.
+      {R"({"cam_K": [572.5, 0, 325.25, 0, 573.5, 242, 0, 0, 1], "depth_scale": 0.1})", 572.5,
+       325.25, 0, 10000},
+      {R"({"cam_K": [572.5, 0, 325.25, 0, 573.5, 242, 0, 0, 1], "width": 640, "height": 480})",
+       572.5, 325.25, 640, 0},
+      {"fx: 1066.5\nfy: 1067\ncx: 312.5  # of the colour camera\ncy: 241\n", 1066.5, 312.5, 0, 0},
+      {"color:\n  fx: 615.5\n  fy: 615\n  ppx: 312.5\n  ppy: 239\n  width: 640\n  height: 480\n"
+       "depth:\n  scale: 1\n",
+       615.5, 312.5, 640, 0},
+      {"color: {fx: 615.5, fy: 615, ppx: 312.5, ppy: 239, width: 640, height: 480}\n"
+       "depth_scale: 0.001\n",
+       615.5, 312.5, 640, 1000},
+      {"%YAML:1.0\nCamera.type: \"PinHole\"\nCamera.fx: 535.5\nCamera.fy: 539\nCamera.cx: 320.5\n"
+       "Camera.cy: 247\nCamera.k1: 0.0\nCamera.p2: 0\nDepthMapFactor: 5000.0\n",
+       535.5, 320.5, 0, 5000},
+  };
+  for (const auto& [text, fx, cx, width, scale] : cases) {
+    const Camera c = camera_of(text);
+    EXPECT_EQ(c.intrinsics.fx, fx) << text;
+    EXPECT_EQ(c.intrinsics.cx, cx) << text;
+    EXPECT_EQ(c.width, width) << text;
+    EXPECT_DOUBLE_EQ(c.depth_scale, scale) << text;
+  }
+  const std::pair<const char*, const char*> faults[] = {
+      {R"({"color": {"fx": 9, "fy": 9, "cx": 4, "cy": 4}, "depth": {"fx": 8, "fy": 9, "cx": 4,
+           "cy": 4}})",
+       "several cameras, found color and depth with different ones, expected one camera"},
+      {R"({"a": {"cam_K": [9, 0, 4, 0, 9, 4, 0, 0, 1], "width": 8, "height": 8},
+           "b": {"cam_K": [9, 0, 4, 0, 9, 4, 0, 0, 1]}})",
+       "several cameras, found a and b"},
+      {R"({"color": {"fx": 9, "fy": 9, "ppx": 4}})", "not a camera, found no ppy"},
+      {R"({"color": {"width": 9, "height": 9}})", "not a camera, found no intrinsic_matrix, cam_K"},
+      {R"({"color": {"fx": 9, "fy": 9, "ppx": 4, "ppy": 4}, "depth_scale": 0})",
+       "c.yaml:1:66: depth_scale, found 0"},
+      {"color:\n  fx: 9\n  fy: 9\n  cx: 4\n  cy: 4\ndepth:\n  fx: 8\n  fy: 9\n  cx: 4\n  cy: 4\n",
+       "several cameras, found color and depth"},
+      {"fx: 9\nfy: 9\ncx: 4\n", "not a camera, found no cy"},
+      {"fx: 9\nfy: nine\ncx: 4\ncy: 4\n", "c.yaml:2:5: not a number, found \"nine\""},
+      {"fx: [9, 8]\nfy: 9\ncx: 4\ncy: 4\n", "c.yaml:1:9: more than one number, found \"8\""},
+      {"fx: 9\nfy: 9\ncx: 4\ncy: 4\nwidth: 8\n", "found no height"},
+      {"fx: 9\nfy: 9\ncx: 4\ncy: 4\ndepth_scale: -1\n", "c.yaml:5:14: depth_scale, found -1"},
+      {"Camera.fx: 9\nCamera.fy: 9\nCamera.cx: 4\nCamera.cy: 4\nCamera.k1: 0.1\n",
+       "c.yaml:5:1: lens coefficients, found \"camera.k1\", expected none"},
+      {"fx: 9\nfy: 9\ncx: 4\ncy: 4\ndistortion_coefficients:\n  data: [0, 0.5]\n",
+       "c.yaml:6:3: lens coefficients, found \"distortion_coefficients\""},
+      {"a: {fx: 9, fy: 9}\nb: {fx: 9, fx: 8}\n", "c.yaml:2:12: a repeated key, found b.fx"},
+  };
+  for (const auto& [text, message] : faults) {
+    const std::string found = bad_data([&, t = text] { camera_of(t); });
+    EXPECT_TRUE(contains(found, message)) << found;
+  }
+}
+
 TEST(CameraFiles, RefusalsNameTheIntrinsics) {
   const std::vector<std::pair<const char*, const char*>> faults{
       {R"({"fx": 9, "fy": 9, "ppx": 4})", "not a camera, found no ppy"},
@@ -219,7 +295,7 @@ TEST(CameraFiles, RefusalsNameTheIntrinsics) {
       {"525 0 319.5\n0 525 239.5\n0 1 1\n", "c.yaml:1:1: camera matrix, found 525, 0"},
       {"1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17", "more than 16 numbers"},
       {"1 0 3 0 0 1 3 0 0 0 1 0 0 0 0 2", "camera matrix of 4 x 4"},
-      {"{\"a\": 1}", "not an Open3D camera"},
+      {"{\"a\": 1}", "not a camera, found no intrinsic_matrix, cam_K or fx"},
       {"a: 1\n", "no image_width"},
   };
   for (const auto& [text, message] : faults) {

@@ -58,9 +58,9 @@ struct Camera {
 };
 
 /// Reads a calibration: camera_info YAML of ROS 1 and 2 (of camera_calibration or `ros2 topic
-/// echo`), YAML of OpenCV, JSON of Open3D, RealSense or BOP, or the 9 numbers of a camera matrix.
-/// From camera_info it reads K and D, not R and P: the image is assumed to be the raw image unless
-/// D is zero. It applies the binning and the region of interest.
+/// echo`), YAML of OpenCV or with fx, fy, cx, cy, JSON of Open3D, RealSense or BOP, or the 9
+/// numbers of a camera matrix. From camera_info it reads K and D, not R and P: the image is assumed
+/// to be the raw image unless D is zero. It applies the binning and the region of interest.
 /// @throws Error (bad_data) "name:line:column: …" on any other file, or on a lens whose model is
 ///         unknown.
 Camera read_camera(const Input& input);

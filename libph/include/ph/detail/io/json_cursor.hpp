@@ -48,6 +48,8 @@ class JsonCursor {
   void expect_end();
 
   std::size_t place() const { return at_; }
+  /// The line and the column of a place, from 1.
+  std::pair<std::size_t, std::size_t> line_and_column(std::size_t place) const;
   [[noreturn]] void fail(std::size_t place, const Fault& fault) const;
 
  private:
