@@ -19,6 +19,7 @@
 #include "apps/common/files/file_identity.hpp"
 #include "apps/common/run/program.hpp"
 #include "apps/common/terminal/exit_code.hpp"
+#include "ph/detail/io/table.hpp"
 
 namespace ph::barcode {
 namespace {
@@ -75,8 +76,11 @@ std::vector<Places> places_of(const Job& job, const std::vector<std::string>& in
     throw Error(
         ErrorKind::usage,
         fmt::format("--output: found '{}', expected a folder (-o FOLDER/) or a * for the names of "
-                    "several inputs",
-                    output));
+                    "several inputs{}",
+                    output,
+                    std::ranges::all_of(inputs, detail::may_be_slice)
+                        ? "; --stack FOLDER reads the pictures in a folder as one volume"
+                        : ""));
   const std::vector<std::string> names = app::output_names(inputs);
   const bool writes = format != BarcodeFormat::none || !job.places.plots.empty() ||
                       !job.places.report.empty() || !job.places.surfaces.empty();

@@ -45,6 +45,14 @@ class Batch(ProgramTest):
                          ["ph-barcode: read square.txt: 4 points in R^2, text",
                           "ph-barcode: square.txt: 4 points in R^2, text: 5 bars"])
 
+    def test_pictures_without_an_output_may_be_slices(self):
+        stack = "--stack FOLDER reads the pictures in a folder as one volume"
+        for names, wanted in ((("a1.png", "a2.png"), True), (("a.tiff", "b.PGM", "c.tif"), True),
+                              (("a.png", "b.txt"), False), (("a.npy", "b.npy"), False)):
+            [line] = self.batch(64, *names)
+            self.assertIn("--output: found '-', expected a folder", line)
+            self.assertEqual(stack in line, wanted, line)
+
     def test_quiet_leaves_the_errors(self):
         lines = self.batch(66, "missing.txt", "square.txt", "--quiet", "-o", "out/")
         self.assertEqual(len(lines), 1)

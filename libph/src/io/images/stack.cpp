@@ -10,6 +10,7 @@
 #include "libph/src/io/bytes/readers.hpp"
 #include "libph/src/io/tables/array.hpp"
 #include "ph/detail/core/lower_case.hpp"
+#include "ph/detail/io/table.hpp"
 
 namespace ph::detail {
 namespace {
@@ -243,6 +244,8 @@ class StackReader {
 };
 
 }  // namespace
+
+bool may_be_slice(std::string_view name) { return slice_kind_of(name) != nullptr; }
 
 Stack read_stack(const Input& folder, Format format, const ReadOptions& options) {
   const Slices slices(folder, format, options);

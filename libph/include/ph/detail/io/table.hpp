@@ -150,6 +150,9 @@ std::optional<ForeignKind> foreign_kind(std::string_view bytes);
 /// of an unknown kind.
 void require_text(const Input& input, std::string_view hint);
 
+/// True if a file of this name may be a slice of a volume: a PNG, PGM or TIFF picture.
+bool may_be_slice(std::string_view name);
+
 /// @throws Error (usage) if options.columns were given for an input without columns to choose.
 void refuse_columns(const ReadOptions& options, std::string_view found);
 
