@@ -143,8 +143,11 @@ void require_consistent(const Arguments& a) {
                     printable(a.inputs.front())));
   if (!depth && !a.is_stream() && !may_be_image(a.inputs.front())) {
     if (a.image.has_camera())
-      throw Error(ErrorKind::usage, fmt::format("{}: found a cloud, expected a depth image",
-                                                a.image.camera ? "--intrinsics" : "--camera"));
+      throw Error(
+          ErrorKind::usage,
+          fmt::format("{}: found {}, expected a depth image, .png, .pgm or .npy; --depth "
+                      "takes a file of any name",
+                      a.image.camera ? "--intrinsics" : "--camera", printable(a.inputs.front())));
   }
 }
 

@@ -112,7 +112,7 @@ Input::StartCheck start_check(Format format) {
   if (format != Format::automatic) return [](const Input& start) { TextLines{start}; };
   return [](const Input& start) {
     const std::optional<Format> known = format_by_content(start);
-    if (known == Format::points) refuse_bytes(start);
+    if (known == Format::points) refuse_bytes(start, way_to_raw());
     if (!known || known == Format::points) return;
     const Input::StartCheck check = start_check(*known);
     check(start);

@@ -19,7 +19,7 @@ struct Magic {
 
 constexpr std::string_view kToPng = "convert it to PNG";
 constexpr std::string_view kToNpy = "save the array as .npy";
-constexpr std::string_view kToMesh = "convert it to OFF or PLY";
+constexpr std::string_view kToMesh = "convert it to PLY";
 constexpr std::string_view kToCloud = "convert it to PLY or PCD";
 constexpr std::string_view kToVolume = "convert it to NIfTI, or save the array as .npy";
 constexpr std::string_view kExport = "export its clouds as PCD and its images as PNG";

@@ -172,10 +172,12 @@ void join_vertices(Mesh& mesh, const Input& input, const ReadOptions& options, R
 
 }  // namespace
 
-void detail::refuse_bytes(const Input& input) {
-  const std::string hint =
-      fmt::format("{} reads numbers without a header as an image; {} reads them as points",
-                  mark(Setting::raw_shape, "N,M"), mark(Setting::raw_points, "D"));
+std::string detail::way_to_raw() {
+  return fmt::format("{} reads numbers without a header as an image; {} reads them as points",
+                     mark(Setting::raw_shape, "N,M"), mark(Setting::raw_points, "D"));
+}
+
+void detail::refuse_bytes(const Input& input, std::string_view hint) {
   detail::require_text(input, hint);
   // Form feeds, the end mark of DOS and escape sequences occur in texts. Other control characters
   // do not.
@@ -189,7 +191,7 @@ void detail::refuse_bytes(const Input& input) {
   const auto place = static_cast<std::size_t>(odd - probe.begin());
   input.fail_at_byte(place,
                      {"not plain text", "a control character, " + printable(probe.substr(place, 1)),
-                      "UTF-8", hint});
+                      "UTF-8", std::string(hint)});
 }
 
 ReadResult read_any(const Input& input, Format format, const ReadOptions& options,
@@ -218,7 +220,7 @@ ReadResult read_any(const Input& input, Format format, const ReadOptions& option
   }
   if (format == Format::automatic) {
     const auto known = detail::format_by_content(input);
-    if (known == Format::points) detail::refuse_bytes(input);
+    if (known == Format::points) detail::refuse_bytes(input, detail::way_to_raw());
     format = known ? *known : format_of_text(input, inner);
     if (format == Format::binary)
       if (const std::string way = detail::way_to_raw_points(input); !way.empty())

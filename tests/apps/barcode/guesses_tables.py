@@ -244,9 +244,9 @@ class Pictures(GuessTest):
                 ("x.tif", b"II*\0" + bytes(90), ["pages of a TIFF, found none"]),
                 ("x.webp", b"RIFF\x10\0\0\0WEBPVP8 " + bytes(40), ["WebP"]),
                 ("x.obj", b"# a mesh\nmtllib m.mtl\no cube\nv 0 0 1\nv 1 0 0\nf 1 2 1\n",
-                 ["OBJ mesh", "OFF or PLY"]),
-                ("x.stl", b"solid a\nfacet normal 0 0 1\nouter loop\n", ["STL mesh", "OFF or PLY"]),
-                ("y.stl", bytes(80) + b"\2\0\0\0" + bytes(100), ["STL mesh", "OFF or PLY"]),
+                 ["OBJ mesh", "to PLY"]),
+                ("x.stl", b"solid a\nfacet normal 0 0 1\nouter loop\n", ["STL mesh", "to PLY"]),
+                ("y.stl", bytes(80) + b"\2\0\0\0" + bytes(100), ["STL mesh", "to PLY"]),
                 ("x.h5", b"\x89HDF\r\n\x1a\n" + bytes(90), ["HDF5", ".npy"])):
             self.write(name, content)
             self.refused(65, [name, *words], name)

@@ -126,6 +126,9 @@ TEST_F(DepthImages, CamerasByFile) {
       << err();
   EXPECT_EQ(run("d.png --camera c.yaml" + intrinsics_), 64);
   EXPECT_EQ(run("scene.pcd --camera c.yaml"), 64);
+  EXPECT_TRUE(
+      notes("--camera: found scene.pcd, expected a depth image, .png, .pgm or .npy; --depth"))
+      << err();
 }
 
 TEST_F(DepthImages, CamerasByName) {

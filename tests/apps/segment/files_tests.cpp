@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <map>
+#include <regex>
+#include <utility>
 
 #include "ph/detail/io/png.hpp"
 #include "ph/io/plot.hpp"
@@ -23,6 +25,19 @@ TEST_F(Program, PrintsATableByDefault) {
   EXPECT_NE(err().find("2 segments, checked"), std::string::npos) << err();
   EXPECT_EQ(run("scene.pcd --quiet"), 0);
   EXPECT_EQ(err(), "");
+}
+
+TEST_F(Program, NamesAWayOutForOtherFiles) {
+  const std::pair<const char*, const char*> cases[] = {
+      {"solid a\nfacet normal 0 0 1\nouter loop\n", "found an STL mesh, .*; convert it to PLY"},
+      {"OFF\n3 0 0\n0 0 0\n1 0 0\n0 1 0\n", "a mesh, found OFF, .*; convert it to PLY"},
+      {"\x01\x02\x03\x04", "a control character, .*; numpy.save writes numbers without a header"},
+      {"\xCD\xCC\x4C\x3E\x01\x7F", "numpy.save writes numbers without a header as NPY"}};
+  for (const auto& [content, words] : cases) {
+    std::ofstream(at("other.raw"), std::ios::binary) << content;
+    EXPECT_EQ(run("other.raw"), 65) << words;
+    EXPECT_TRUE(std::regex_search(err(), std::regex(words))) << err();
+  }
 }
 
 TEST_F(Program, WritesEverything) {

@@ -76,8 +76,11 @@ bool is_meta_image(const Input& input);
 /// text.
 bool is_text(std::string_view bytes);
 
-/// Refuses bytes that are not text and have no magic number, and names the options that read them.
-void refuse_bytes(const Input& input);
+/// Refuses bytes that are not text and have no magic number. @param hint advice for bytes of an
+/// unknown kind.
+void refuse_bytes(const Input& input, std::string_view hint);
+/// The settings that read numbers without a header, for a message.
+std::string way_to_raw();
 
 /// The setting that reads a file of float32 as points of 4, 3, 5 or 6 numbers, for a message; empty
 /// if its size fits none of them.

@@ -16,6 +16,12 @@ Cloud read_cloud(const Input& input, const ReadOptions& options) {
     if (detail::is_ply(input) || input.extension() == ".ply") return read_ply(input, options);
     if (detail::is_npy(input)) return read_npy_cloud(input, options);
     if (input.extension() == ".pts" && detail::is_counted(input)) return read_pts(input, options);
+    if (detail::is_off(input))
+      input.fail({"a mesh", "OFF", "a cloud in PCD, PLY, NPY or text", "convert it to PLY"});
+    if (!detail::is_text(input.text()))
+      detail::refuse_bytes(input,
+                           "numpy.save writes numbers without a header as NPY, one point "
+                           "per row");
     return read_xyz(input, options);
   };
   Cloud cloud = read();
