@@ -105,6 +105,18 @@ Format format_of_text(const Input& input, const ReadOptions& options) {
   return guess.format;
 }
 
+// Refuses JSON, which would pass for a list of simplices because of its colons.
+void refuse_json(const Input& input) {
+  const std::string_view text = input.text();
+  const std::size_t first = text.find_first_not_of(" \t\r\n");
+  if (first == text.npos || text[first] != '{') return;
+  constexpr std::string_view format = "\"format\": \"ph-";
+  const bool is_result = text.substr(first, 2 * format.size()).find(format) != text.npos;
+  input.fail({"not numbers", is_result ? "a JSON file of libph" : "a JSON file",
+              "points, distances, an image or a complex",
+              is_result ? "it is a result, not an input" : "write the numbers as text or as .npy"});
+}
+
 // Refuses options that the format of an input does not support.
 void check_part(const Input& input, Format format, const ReadOptions& options) {
   const auto refuse = [&](Setting setting, std::string_view meant_for) {
@@ -221,6 +233,7 @@ ReadResult read_any(const Input& input, Format format, const ReadOptions& option
   if (format == Format::automatic) {
     const auto known = detail::format_by_content(input);
     if (known == Format::points) detail::refuse_bytes(input, detail::way_to_raw());
+    if (!known) refuse_json(input);
     format = known ? *known : format_of_text(input, inner);
     if (format == Format::binary)
       if (const std::string way = detail::way_to_raw_points(input); !way.empty())

@@ -36,6 +36,20 @@ TEST(ReadPoints, AcceptsTheOrdinaryShapes) {
   }
 }
 
+TEST(ReadAny, RefusesJson) {
+  const auto message = [](const std::string& text) {
+    return bad_data([&] { read_any(Input::view(text, "s.json")); });
+  };
+  const std::string own =
+      message("{\n  \"format\": \"ph-segment\",\n  \"objects\": [{\"x\": 1}]\n}\n");
+  EXPECT_TRUE(contains(own, "s.json: not numbers, found a JSON file of libph, expected points"));
+  EXPECT_TRUE(contains(own, "it is a result, not an input"));
+  EXPECT_TRUE(
+      contains(message(" {\"points\": [[1, 2], [3, 4]]}"),
+               "found a JSON file, expected points, distances, an image or a complex; write "
+               "the numbers as text or as .npy"));
+}
+
 TEST(ReadPoints, KeepsTheNumbersExactly) {
   const Points p = points("0.1 4.9e-324 1.7976931348623157e308\n-0 1e-400 -1e-99999999999\n");
   EXPECT_EQ(p(0, 0), 0.1);
