@@ -109,8 +109,21 @@ void OutputFile::open_regular() {
 }
 
 OutputFile::~OutputFile() {
-  if (is_pending_ && std::uncaught_exceptions() <= exceptions_) std::terminate();
+  if (is_pending_ && std::uncaught_exceptions() <= exceptions_) end_process();
   discard();
+}
+
+void OutputFile::end_process() noexcept {
+  discard();
+  try {
+    throw Error(ErrorKind::usage,
+                fmt::format("{}: found an OutputFile at its end with bytes that are not committed, "
+                            "expected commit() or discard() before",
+                            path_ == "-" ? "standard output" : printable(path_)));
+  } catch (...) {
+    // While the handler is active, the default terminate handler prints the message.
+    std::terminate();
+  }
 }
 
 OutputFile::OutputFile(OutputFile&& other) noexcept
@@ -124,7 +137,7 @@ OutputFile::OutputFile(OutputFile&& other) noexcept
 
 OutputFile& OutputFile::operator=(OutputFile&& other) noexcept {
   if (this == &other) return *this;
-  if (is_pending_) std::terminate();
+  if (is_pending_) end_process();
   discard();
   path_ = std::move(other.path_);
   target_ = std::move(other.target_);

@@ -35,13 +35,14 @@ TEST_F(OutputFilesDeathTest, ACallerThatForgetsCommitIsStopped) {
     OutputFile file(path());
     file.write("1");
   };
-  EXPECT_DEATH(forgets(), "");
+  EXPECT_DEATH(forgets(), "out: found an OutputFile .* not committed, expected commit\\(\\)");
+  EXPECT_TRUE(is_empty());
   const auto replaces = [&] {
     OutputFile file(path());
     file.write("1");
     file = OutputFile("/dev/null");
   };
-  EXPECT_DEATH(replaces(), "");
+  EXPECT_DEATH(replaces(), "out: found an OutputFile .* not committed, expected commit\\(\\)");
 }
 
 TEST_F(OutputFiles, LeaveNothingWithoutCommit) {

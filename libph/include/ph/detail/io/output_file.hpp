@@ -31,11 +31,12 @@ void require_unpacked(const std::string& path);
 /// flushes to disk and renames; the output may therefore be one of the program's own inputs.
 /// Without `commit` nothing is left behind, and a caller that forgets it is stopped: the destructor
 /// ends the process, like that of std::thread, if bytes were written, no exception is on its way,
-/// and neither `commit` nor `discard` was called. Some targets cannot be replaced and are written
-/// directly: "-" (standard output), /dev/stdout and other names of descriptors, the file to which
-/// standard output or standard error is redirected, devices, FIFOs. A symbolic link is followed.
-/// The new file takes the mode of the file that it replaces, except for set-ID bits, and also the
-/// owner and group if that is allowed.
+/// and neither `commit` nor `discard` was called. The default terminate handler prints an error
+/// that names the file. Some targets cannot be replaced and are written directly: "-" (standard
+/// output), /dev/stdout and other names of descriptors, the file to which standard output or
+/// standard error is redirected, devices, FIFOs. A symbolic link is followed. The new file takes
+/// the mode of the file that it replaces, except for set-ID bits, and also the owner and group if
+/// that is allowed.
 class OutputFile {
  public:
   /// @param path "-" for standard output.
@@ -71,6 +72,7 @@ class OutputFile {
 
  private:
   void open_regular();
+  [[noreturn]] void end_process() noexcept;
   [[noreturn]] void fail_writing(int error);
 
   std::string path_;  // the name as the user gave it
@@ -79,8 +81,8 @@ class OutputFile {
   std::filesystem::path temporary_;  // its name until `commit`; empty if it has none
   std::string buffer_;
   int descriptor_ = -1;
-  bool owned_ = false;       // true if the descriptor must be closed
-  bool is_pending_ = false;  // true if bytes were written and not committed
+  bool owned_ = false;                           // true if the descriptor must be closed
+  bool is_pending_ = false;                      // true if bytes were written and not committed
   int exceptions_ = std::uncaught_exceptions();  // when the file was opened
 };
 
