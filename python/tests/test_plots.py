@@ -61,6 +61,12 @@ def test_plot_of_one_dimension(kind):
     for wrong in ("1", [0, -1]):
         with pytest.raises(ph.UsageError, match="dims: found '?-?1'?, expected a whole number"):
             bars.plot(kind, dims=wrong)
+    for wrong in ([5], [0, 2]):
+        with pytest.raises(ph.UsageError, match=r"dims: found \[.*\], expected dimensions of these bars, 0 to 1"):
+            bars.plot(kind, dims=wrong)
+    with pytest.raises(ph.UsageError, match="dims: found 0, expected 1, the only dimension"):
+        ph.rips(CIRCLE, min_dim=1).plot(kind, dims=0)
+    bars.filter(dim=0).plot(kind, ax=Figure().add_subplot(), dims=1)  # H1 was computed
     with pytest.raises(ph.UsageError, match="dim: .*did you mean 'dims'"):
         bars.plot(kind, ax=Figure().add_subplot(), dim=1)
 

@@ -24,7 +24,7 @@ def plot(bars: Barcode, kind: Any, ax: Axes | None, dims: Any, noise: float | No
         if hint:
             raise UsageError(f"{name}: plot has no such keyword{hint}")
     if dims is not None:
-        bars = bars.filter(dim=_options.one_or_several("dims", dims, 0))
+        bars = bars.filter(dim=_known_dims(bars, dims))
     draw = {"diagram": _diagram, "barcode": _lines, "betti": _betti}[
         _options.choice("kind", kind, ["diagram", "barcode", "betti"])]
     if ax is None:
@@ -39,6 +39,17 @@ def plot(bars: Barcode, kind: Any, ax: Axes | None, dims: Any, noise: float | No
                         linewidth=0, zorder=-1)
     draw(bars, ax, style)
     return ax
+
+
+def _known_dims(bars: Barcode, dims: Any) -> list[int]:
+    """The requested dimensions, which must be among the dimensions that were computed."""
+    wanted = _options.one_or_several("dims", dims, 0)
+    least, most = bars.meta.get("min_dim", 0), bars._top_dim
+    if not all(least <= dim <= most for dim in wanted):
+        raise _options.refuse("dims", dims, "no dimension, because there are no bars" if most < least
+                              else f"{least}, the only dimension of these bars" if most == least
+                              else f"dimensions of these bars, {least} to {most}")
+    return wanted
 
 
 class _Ends(NamedTuple):
