@@ -171,9 +171,9 @@ def found_by(path: Any, format: Any, values: Any, nan: Any, columns: Any, array:
     if given and name != "raw":
         raise _errors.UsageError(f"{given}: found format={format!r}, expected format='raw'")
     file = _options.path_of(path)
-    if format is None and columns is None and _is_barcode(file):
-        raise _errors.DataError(f"{os.fsdecode(file)}: found a barcode, expected data; "
-                                "ph.read_barcode reads it")
+    result = _result_in(file) if format is None and columns is None else ""
+    if result:
+        raise _errors.DataError(f"{os.fsdecode(file)}: found {result}")
     found = _run.run(_core.read, file, name,
                      b"" if values is None else _options.path_of(values), options,
                      options=dict(run))
@@ -183,14 +183,27 @@ def found_by(path: Any, format: Any, values: Any, nan: Any, columns: Any, array:
     return found
 
 
-def _is_barcode(path: bytes) -> bool:
-    """True if the file begins like a table or JSON that `Barcode.save` wrote."""
+# The first bytes of the files in which libph writes its results, with the words of an error.
+_RESULTS = (
+    (b"dim,birth,death\n", "a barcode, expected data; ph.read_barcode reads it"),
+    (b'{\n  "format": "ph-barcode"', "a barcode, expected data; ph.read_barcode reads it"),
+    (b"ph-tree\n", "the tree of a segmentation, expected data; ph.segment reads it"),
+    (b'{\n  "format": "ph-segment"', "a segmentation, expected data; json.load reads it"),
+    (b'{"format": "ph-segment"', "segmentations, one per line, expected data; json.loads reads a "
+     "line"),
+    (b'{\n  "format": "ph-segment-tree"', "the tree of a segmentation, expected data; "
+     "Segmentation.save('x.tree') writes it for ph.segment"),
+)
+
+
+def _result_in(path: bytes) -> str:
+    """The result that a file holds, if libph wrote it; empty for any other file."""
     try:
         with open(path, "rb") as file:
-            start = file.read(32)
+            start = file.read(max(len(first) for first, _ in _RESULTS))
     except OSError:  # the reader will report the problem with the file
-        return False
-    return start.startswith((b"dim,birth,death\n", b'{\n  "format": "ph-barcode"'))
+        return ""
+    return next((words for first, words in _RESULTS if start.startswith(first)), "")
 
 
 def _answer(found: dict[str, Any]) -> Any:

@@ -119,6 +119,23 @@ def test_a_barcode_is_no_data(tmp_path):
     assert points.tolist() == bars.dgm(1).tolist()
 
 
+def test_a_segmentation_is_no_data(tmp_path):
+    found = ph.segment(np.argwhere(np.ones((20, 20, 2))) / 100 + [0, 0, 1], plane=False)
+    found.save(tmp_path / "scene.tree")
+    found.save(tmp_path / "tree.json")
+    (tmp_path / "scene.json").write_text('{\n  "format": "ph-segment",\n  "version": 2\n}\n')
+    (tmp_path / "frames.json").write_text('{"format": "ph-segment", "version": 2}\n' * 2)
+    for name, words in (("scene.tree", "the tree of a segmentation.*ph.segment reads it"),
+                        ("tree.json", r"the tree of a segmentation.*save\('x.tree'\)"),
+                        ("scene.json", "a segmentation, .*json.load reads it"),
+                        ("frames.json", "segmentations, one per line, .*json.loads")):
+        with pytest.raises(ph.DataError, match=rf"{name}: found {words}"):
+            ph.read(tmp_path / name)
+    (tmp_path / "other.json").write_text('{"points": [[0, 1], [2, 3]]}')
+    with pytest.raises(ph.DataError, match="other.json: not numbers, found a JSON file"):
+        ph.read(tmp_path / "other.json")
+
+
 def test_diagrams_of_other_shapes():
     bars = ph.rips(SERIES)
     for wrong, words in ((bars.dgms(), "a list of arrays, .* a.1. has the rows of H1"),
