@@ -38,6 +38,10 @@ def attribute(module: str, name: str, known: Iterable[str]) -> Any:
 def _module_hint(package: str, path: str) -> str:
     """The end of a message about a module of the original; empty for any other module."""
     from .. import _hints
+    from . import _MODULES
+    place = _MODULES.get(package, {}).get(f"{package}.{path}")
+    if place:  # only `install` makes a module of it
+        return f"; {_HERE}.{place} has its functions"
     hint = _hints.MISSING_MODULES.get(package, {}).get(path)
     if hint is None:
         return ""

@@ -201,6 +201,14 @@ def test_missing_modules():
     assert int(run(code)) > 50
 
 
+def test_modules_that_only_install_makes():
+    for statement in ("import libph.compat.persim.visuals", "from libph.compat.persim import visuals",
+                      "import libph.compat.gudhi.rips_complex"):
+        place = "persim" if "persim" in statement else "gudhi"
+        code = f"try:\n    {statement}\nexcept ImportError as error:\n    print(error)"
+        assert f"libph.compat.{place} has its functions" in run(code), statement
+
+
 def test_unknown_names_and_modules():
     code = """if True:
         from libph import compat
