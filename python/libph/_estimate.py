@@ -2,6 +2,7 @@
 """Estimates of the memory and work of a computation."""
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -9,7 +10,7 @@ import numpy as np
 from . import _arrays, _core, _options
 from ._compute import alpha, cubical, rips
 from ._requests import PointImage, Request, alpha_request, cubical_request, rips_request
-from ._options import arguments_of
+from ._options import arguments_of, signature_of
 from ._results import in_units, spaced
 
 
@@ -63,12 +64,25 @@ def request_of(data: Any, complex: Any, options: dict[str, Any]) -> Request:
     """The computation that `rips`, `cubical` or `alpha` would run on the data."""
     _options.choice("complex", complex, [None, "rips", "cubical", "alpha"])
     if complex == "alpha":
-        return alpha_request(arguments_of(alpha, data, options))
+        return alpha_request(_arguments(alpha, data, options))
     is_image = complex == "cubical" or (complex is None and (
         isinstance(data, PointImage) or (not _arrays.is_sparse(data) and _axes_of(data) > 2)))
     if is_image:
-        return cubical_request(arguments_of(cubical, data, options))
-    return rips_request(arguments_of(rips, data, options))
+        return cubical_request(_arguments(cubical, data, options))
+    return rips_request(_arguments(rips, data, options))
+
+
+def _arguments(function: Callable[..., Any], data: Any, options: dict[str, Any]) -> dict[str, Any]:
+    """The arguments of the function. The error about a keyword that only another complex accepts
+    names this complex."""
+    functions = (rips, cubical, alpha)
+    for name in [name for name in options if name not in signature_of(function).parameters]:
+        others = [repr(other.__name__) for other in functions
+                  if name in signature_of(other).parameters]
+        if others:
+            raise TypeError(f"{function.__name__}() got an unexpected keyword argument {name!r}; "
+                            f"complex={' or '.join(others)} accepts it")
+    return arguments_of(function, data, options)
 
 
 def _axes_of(data: Any) -> int:

@@ -219,14 +219,14 @@ def with_hints(target: _Callable) -> _Callable:
 
 # ---- keywords of one function that another one accepts as well
 
-_signature = functools.lru_cache(maxsize=None)(inspect.signature)
+signature_of = functools.lru_cache(maxsize=None)(inspect.signature)
 
 
 def arguments_of(function: Callable[..., Any], data: Any, given: Mapping[str, Any]
                  ) -> dict[str, Any]:
     """All arguments that `function(data, **given)` would see, including defaults."""
     try:
-        bound = _signature(function).bind(data, **given)
+        bound = signature_of(function).bind(data, **given)
     except TypeError as error:
         raise TypeError(f"{function.__name__}() {error}") from None
     bound.apply_defaults()

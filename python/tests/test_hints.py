@@ -48,6 +48,18 @@ def test_keywords_of_others(call, hint):
         call()
 
 
+@pytest.mark.parametrize("call, message", [
+    (lambda: ph.estimate(np.zeros((9, 9)), periodic="all"), r"rips\(\).*'periodic'; complex='cubical'"),
+    (lambda: ph.merge_tree(POINTS, superlevel=True), r"rips\(\).*'superlevel'; complex='cubical'"),
+    (lambda: ph.estimate(np.zeros((9, 9, 9)), metric="l1"), r"cubical\(\).*'metric'; complex='rips'"),
+    (lambda: ph.estimate(POINTS, period=1), r"rips\(\).*'period'; complex='alpha'"),
+    (lambda: ph.rips(POINTS, homology_dimensions=(0, 1)), "max_dim=1 gives H0 and H1, min_dim=2"),
+    (lambda: ph.cubical(POINTS, sampling=2), "do not depend on the size of voxels")])
+def test_keywords_of_other_complexes_and_ranges(call, message):
+    with pytest.raises(TypeError, match=message):
+        call()
+
+
 def test_a_keyword_like_no_other_has_no_hint():
     with pytest.raises(TypeError, match="argument 'xyzzy'$"):
         ph.rips(POINTS, xyzzy=1)
@@ -213,12 +225,18 @@ class SimplexTree:
     def get_simplices(self): ...
 
 
+class GraphOfIgraph:
+    vs = es = ()
+    def get_edgelist(self): ...
+
+
 class Cloud:
     points = [[0, 1]]
 
 
 @pytest.mark.parametrize("data, hint", [
     (Graph(), "networkx.to_scipy_sparse_array"), (SimplexTree(), r"ph.filtered\(\*zip"),
+    (GraphOfIgraph(), r"get_adjacency_sparse\('weight'\) .*metric='precomputed'"),
     (Cloud(), ".points has")])
 def test_objects_of_others(data, hint):
     for call in (ph.rips, ph.cubical, lambda x: ph.rips(x, metric="precomputed")):
@@ -226,7 +244,7 @@ def test_objects_of_others(data, hint):
             call(data)
 
 
-@pytest.mark.parametrize("data", [Graph(), SimplexTree()])
+@pytest.mark.parametrize("data", [Graph(), GraphOfIgraph(), SimplexTree()])
 def test_objects_of_others_as_simplices(data):
     with pytest.raises(ph.UsageError, match=f"simplices: found {type(data).__name__}, .*; "):
         ph.lower_star([0, 1, 2], data)
@@ -252,6 +270,7 @@ def test_graphs_of_networkx():
     ("wasserstein_distance", "ph.wasserstein"), ("cubicle", "'cubical'"),
     ("PersistenceScaleSpaceKernel", "ph.diagram_kernels"), ("ecc", "ph.euler_curve"),
     ("TakensEmbedding", "ph.delay_embedding"), ("circular_coordinates", "cocycles"),
+    ("representations", "libph.sklearn has"), ("subsampling", "ph.farthest_points"),
     ("mapper", "KeplerMapper"), ("zigzag", "Dionysus"),
     ("VietorisRipsPersistence", "libph.sklearn.RipsPersistence")])
 def test_names_of_the_package(name, hint):

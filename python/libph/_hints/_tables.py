@@ -7,6 +7,9 @@ def _table(*rows: tuple[str, str]) -> dict[str, str]:
     return {name: hint for names, hint in rows for name in names.split()}
 
 
+_VECTORS = ("libph.sklearn has PersistenceImage, Landscape, Silhouette, BettiCurve, Entropy, Atol, "
+            "DiagramDistances and DiagramKernels")
+
 MODULE = _table(
     ("ripser Rips", "use ph.rips, or libph.compat.ripser for ripser.py's interface"),
     ("ripser_parallel", "use ph.rips, or libph.compat.gph for giotto-ph's interface"),
@@ -65,6 +68,10 @@ MODULE = _table(
      "pyflagser has it; ph.filtered takes the simplices of any complex"),
     ("extended_persistence", "GUDHI's SimplexTree has it"),
     ("gromov_hausdorff", "persim has it"),
+    ("representations representation vectorization vectorisation vectorizations", _VECTORS),
+    ("clustering", "use libph.sklearn.PersistenceClustering"),
+    ("subsampling", "use ph.farthest_points"),
+    ("point_cloud", "use ph.delay_embedding, ph.distance_to_measure"),
 )
 
 
@@ -167,15 +174,10 @@ MISSING_MODULES = {
         ("sliced_wasserstein", "use ph.sliced_wasserstein"),
         ("gromov_hausdorff", ""),
     ),
-    "gudhi": _table(
-        ("representations", "libph.sklearn has PersistenceImage, Landscape, Silhouette, BettiCurve, "
-         "Entropy, Atol, DiagramDistances and DiagramKernels"),
-        ("clustering", "use libph.sklearn.PersistenceClustering"),
+    "gudhi": _as_in_module("representations clustering subsampling point_cloud") | _table(
         ("wasserstein.barycenter", "use ph.barycentre"),
-        ("subsampling", "use ph.farthest_points"),
         ("persistence_graphical_tools", "use bars.plot()"),
         ("alpha_complex delaunay_complex", "use ph.alpha"),
-        ("point_cloud", "use ph.delay_embedding, ph.distance_to_measure"),
         ("off_utils off_reader", "use ph.read"),
         ("reader_utils", "use ph.read_barcode"),
         ("sklearn.cech_persistence",
@@ -191,7 +193,8 @@ OBJECTS = [
     ("adjacency edges", "networkx.to_scipy_sparse_array(graph) has the lengths of its edges, which "
      "ph.rips reads with metric='precomputed'; list(graph.edges) are simplices for ph.lower_star"),
     ("get_filtration get_simplices", "ph.filtered(*zip(*tree.get_filtration())) reads a simplex tree"),
-    ("get_edgelist vs", "graph.get_edgelist() are simplices for ph.lower_star"),
+    ("get_edgelist vs", "graph.get_adjacency_sparse('weight') has the lengths of its edges, which "
+     "ph.rips reads with metric='precomputed'; graph.get_edgelist() are simplices for ph.lower_star"),
     ("points", ".points has its points"),
     ("vertices", ".vertices has its points"),
 ]
@@ -243,7 +246,7 @@ SAME = [row.split() for row in (
     "colours colors rgb",
 )]
 
-_SIZES = "spacing voxel_spacing voxel_size voxelsize pixel_size pixdim zooms"  # of voxels
+_SIZES = "spacing sampling voxel_spacing voxel_size voxelsize pixel_size pixdim zooms"  # of voxels
 
 # Names of keywords that need more words: the names, the keywords of libph that a function must have
 # for the hint to apply, and the hint. These rows come before SAME.
@@ -265,7 +268,8 @@ EXPLAINED = [
     ("location locations", "construction representatives",
      "representatives='voxels' keeps places: bars.birth_voxel(i), bars.death_voxel(i)"),
     ("homology_dimensions homology_dimension dims dimensions dim top_dim", "min_dim max_dim",
-     "min_dim and max_dim are the ends of a range: min_dim=2, max_dim=2 gives H2 alone"),
+     "min_dim and max_dim are the ends of a range: max_dim=1 gives H0 and H1, "
+     "min_dim=2, max_dim=2 gives H2 alone"),
     ("max_dim maxdim max_dimension maxdimension max_homology_dim", "homology_dimensions",
      "did you mean homology_dimensions? It lists the dimensions: (0, 1, 2)"),
     ("max_dimension", "max_dim",

@@ -61,7 +61,8 @@ def without_component(dgm: Diagram) -> str:
     endless = np.isinf(dgm[:, 1])
     if np.count_nonzero(endless) != 1 or dgm[endless, 0] > dgm[:, 0].min():
         return ""
-    return "RipsPersistence(reduced=True), for example, leaves out the component that never dies"
+    return ("reduced=True of the estimator that found the bars leaves out the component that never "
+            "dies")
 
 
 def _rows_of(samples: Sequence[Any]) -> Samples:

@@ -118,7 +118,7 @@ def test_bars_that_never_die(clouds):
     with pytest.raises(ph.UsageError, match="H0: row 11: found a bar that never dies"):
         RipsPersistence(infinity="error").fit_transform(clouds)
     # Vectorisers name the option that leaves out the component.
-    names = r"RipsPersistence\(reduced=True\), for example, leaves out the component"
+    names = "reduced=True of the estimator that found the bars leaves out the component"
     for vectoriser in (Entropy(), PersistenceImage(), DiagramKernels()):
         with pytest.raises(ph.UsageError, match=f"sample 0, dgm0: row 11: .*never dies; {names}"):
             vectoriser.fit_transform(plain)
