@@ -62,7 +62,7 @@ std::optional<PointsView> RipsRecipe::points() const {
 
 bool RipsRecipe::is_euclidean() const {
   return space_->point_set() && options_.distance == PointDistance::euclidean &&
-         !options_.subsample && !options_.approximation && !options_.dtm_neighbours &&
+         !options_.subsample && !options_.approximation && !options_.computes_births() &&
          options_.births.empty();
 }
 

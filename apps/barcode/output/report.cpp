@@ -52,7 +52,7 @@ bool has_axes_of_space(const ReadResult& read) {
 bool is_euclidean(const Shown& shown, const Job& job) {
   return std::holds_alternative<Rips>(shown.built.complex) && !shown.built.subsample &&
          job.question.rips.distance == PointDistance::euclidean &&
-         !job.question.rips.approximation && !job.question.rips.dtm_neighbours &&
+         !job.question.rips.approximation && !job.question.rips.computes_births() &&
          job.question.vertex_weights.empty();
 }
 

@@ -26,7 +26,7 @@ void require_significance(BarcodeFormat format, const Job& job) {
     reject(
         "--complex delaunay-rips, expected rips, alpha or delaunay-cech, because p-values are "
         "known only for these");
-  if (job.question.rips.dtm_neighbours || !job.question.vertex_weights.empty() ||
+  if (job.question.rips.computes_births() || !job.question.vertex_weights.empty() ||
       !job.question.weights.empty())
     reject(
         "vertices with weights, expected vertices that enter at 0, because p compares ratios of "

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <algorithm>
-#include <memory_resource>
 #include <span>
 #include <vector>
 
-#include "ph/detail/metric/metric.hpp"
+#include "ph/detail/metric/nearest_distances.hpp"
 #include "ph/run_context.hpp"
 
 namespace ph {
@@ -16,9 +14,8 @@ namespace ph {
 // where points are dense and large at outliers. Twice this distance, used as births of a Rips
 // filtration with WeightExponent::one, gives the DTM filtration of Anai et al. in diameters.
 
-/// The distance of each of `points` to the empirical measure of all these points. Uses a k-d tree
-/// where that is faster (Euclidean, Manhattan, Chebyshev and Minkowski distance in at most 8
-/// dimensions, for k from 2 to 513): usually O(n k log n), otherwise O(n^2).
+/// The distance of each of `points` to the empirical measure of all these points, usually in O(n k
+/// log n), see detail::for_each_nearest.
 /// @param points one point per row. @param p exponent of PointDistance::minkowski.
 /// @param neighbours k, from 1 to the number of points.
 /// @throws Error (usage) if k is out of range; Error (bad_data) as PointMetric.
@@ -30,7 +27,7 @@ std::vector<double> distance_to_measure(PointsView points, Index neighbours,
 namespace detail {
 void check_neighbours(Index neighbours, Index size);
 /// The root mean square of `distances` and one more distance, which is 0: the point's distance from
-/// itself.
+/// itself. @param distances ascending, because a fixed order gives a fixed sum.
 double root_mean_square(std::span<const double> distances);
 }  // namespace detail
 
@@ -40,23 +37,49 @@ std::vector<double> distance_to_measure(const M& metric, Index neighbours,
                                         const RunContext& context = default_context()) {
   const Index n = metric.size();
   detail::check_neighbours(neighbours, n);
-  std::vector<double> result;
-  result.reserve(static_cast<std::size_t>(n));
-  std::pmr::vector<double> distances(&context.memory);
-  Ticker ticker(context, "distance to measure", static_cast<std::uint64_t>(n));
-  for (Index i = 0; i < n; ++i) {
-    distances.clear();
-    for (Index j = 0; j < n; ++j)
-      if (i != j) distances.push_back(metric(i, j));
-    const auto others = static_cast<std::size_t>(neighbours - 1);
-    if (others < distances.size())
-      std::ranges::nth_element(distances, distances.begin() + static_cast<std::ptrdiff_t>(others));
-    const std::span<double> nearest = std::span(distances).first(others);
-    std::ranges::sort(nearest);  // a fixed order gives a fixed sum
-    result.push_back(detail::root_mean_square(nearest));
-    ticker.tick();
-    ticker.work(static_cast<std::uint64_t>(n));
-  }
+  std::vector<double> result(static_cast<std::size_t>(n));
+  detail::for_each_nearest(
+      metric, neighbours - 1, "distance to measure",
+      [&](Index i, std::span<const double> nearest) {
+        result[static_cast<std::size_t>(i)] = detail::root_mean_square(nearest);
+      },
+      context);
+  return result;
+}
+
+// The core distance of a point is the distance to its k-th nearest other point; copies of the point
+// count (Campello, Moulavi, Sander, Density-based clustering based on hierarchical density
+// estimates, 2013, whose m_pts counts the point itself: k = m_pts - 1). It has the unit of the
+// distance, and is small where points are dense. Used as births of a Rips filtration with
+// WeightExponent::infinity, core distances give the mutual reachability distances of HDBSCAN* as
+// values of edges: a point enters at its core distance, and an edge at the largest of its length
+// and the core distances of its two ends. No distance is halved.
+
+/// The core distance of each point, usually in O(n k log n), see detail::for_each_nearest.
+/// @param points one point per row. @param p exponent of PointDistance::minkowski.
+/// @param neighbours k, less than the number of points; 0: all core distances are 0.
+/// @throws Error (usage) if k is out of range; Error (bad_data) as PointMetric.
+std::vector<double> core_distances(PointsView points, Index neighbours,
+                                   PointDistance distance = PointDistance::euclidean, double p = 2,
+                                   const RunContext& context = default_context());
+
+namespace detail {
+void check_core_neighbours(Index neighbours, Index size);
+}  // namespace detail
+
+/// The core distance of each point of a metric. O(n^2).
+template <Metric M>
+std::vector<double> core_distances(const M& metric, Index neighbours,
+                                   const RunContext& context = default_context()) {
+  detail::check_core_neighbours(neighbours, metric.size());
+  std::vector<double> result(static_cast<std::size_t>(metric.size()));
+  if (neighbours > 0)
+    detail::for_each_nearest(
+        metric, neighbours, "core distances",
+        [&](Index i, std::span<const double> nearest) {
+          result[static_cast<std::size_t>(i)] = nearest.back();
+        },
+        context);
   return result;
 }
 

@@ -41,6 +41,11 @@ struct RipsOptions {
   /// include the point itself (the DTM filtration of Anai et al., see ph/distance_to_measure.hpp).
   /// K is from 1 to the number of points; this option requires all distances and replaces `births`.
   std::optional<Index> dtm_neighbours = std::nullopt;
+  /// K: each point is born at its core distance, the distance to its K-th nearest other point. The
+  /// values of edges are then the mutual reachability distances of HDBSCAN*, see
+  /// ph/distance_to_measure.hpp. K is less than the number of points; this option requires all
+  /// distances and replaces `births`; it excludes `dtm_neighbours`.
+  std::optional<Index> core_neighbours = std::nullopt;
   /// The law by which balls grow after their births; default: WeightExponent::one with
   /// dtm_neighbours, otherwise WeightExponent::infinity.
   std::optional<WeightExponent> weight_exponent = std::nullopt;
@@ -62,12 +67,16 @@ struct RipsOptions {
   /// CPU, edge by edge. Only for Euclidean points without births whose largest coordinate is 0 or
   /// between 1e-140 and 1e150.
   Device device = Device::cpu;
+
+  /// True if the births are computed from the distances.
+  bool computes_births() const { return dtm_neighbours || core_neighbours; }
 };
 
 template <>
 inline constexpr std::tuple members_of<RipsOptions>{
     Member{"threshold", &RipsOptions::threshold},
     Member{"dtm_neighbours", &RipsOptions::dtm_neighbours},
+    Member{"core_neighbours", &RipsOptions::core_neighbours},
     Member{"weight_exponent", &RipsOptions::weight_exponent},
     Member{"approximation", &RipsOptions::approximation},
     Member{"merge_equal_points", &RipsOptions::merge_equal_points},

@@ -43,23 +43,25 @@ struct TinyGaps : ChebyshevGaps {
 };
 
 /// @tparam Axes the number of coordinates; 0 for any number.
-template <class Gaps, int Axes>
+template <class Gaps, int Axes, bool kHasBirths>
 class Search final : public NeighbourSearch {
  public:
   /// @param is_root_of_sum true if the distance is the square root of the sum of squares.
-  Search(const KdTree& tree, const PointMetric& metric, bool is_root_of_sum)
+  Search(const KdTree& tree, const PointMetric& metric, bool is_root_of_sum,
+         const PointBirths* births)
       : tree_(tree),
         metric_(metric),
         axes_(tree.points().cols()),
         slack_(slack(axes_)),
-        is_root_of_sum_(is_root_of_sum) {}
+        is_root_of_sum_(is_root_of_sum),
+        births_(births) {}
 
   void nearest(Node leaf, std::size_t k, double limit, Ties ties,
                std::span<Neighbour> found) const override {
     const Position begin = tree_.begin(leaf), end = tree_.end(leaf);
     std::array<double, KdTree::kLeafSize> reach;
     reach.fill(Gaps::reach(limit, slack_));
-    double farthest = reach[0];
+    double farthest = reach[0], farthest_distance = limit;
     const double* const box = tree_.box(leaf);
     std::fill(found.begin(), found.end(), Neighbour{limit, kNone});
     const auto visit_leaf = [&](Node other) {
@@ -68,6 +70,7 @@ class Search final : public NeighbourSearch {
         double& reach_of_p = reach[p - begin];
         if (other != leaf && gap_to_box(p, other) > reach_of_p) continue;
         const std::span<Neighbour> list = found.subspan((p - begin) * k, k);
+        if (enters_too_late(other, p, list.back())) continue;
         for (Position q = first; q < last; ++q) {
           const double sum = gap_to_point(p, q);
           if (sum > reach_of_p || p == q) continue;
@@ -76,10 +79,20 @@ class Search final : public NeighbourSearch {
         }
       }
       farthest = *std::max_element(reach.begin(), reach.begin() + (end - begin));
+      if constexpr (kHasBirths) {
+        farthest_distance = 0;
+        for (std::size_t i = k - 1; i < k * (end - begin); i += k)
+          farthest_distance = std::max(farthest_distance, found[i].distance);
+      }
+    };
+    const auto is_hopeless = [&](Node node, double gap) {
+      if constexpr (kHasBirths)
+        if (births_->least_birth(node) > farthest_distance) return true;
+      return gap > farthest || node == leaf;
     };
     visit_leaf(leaf);
-    traverse([&](Node node) { return gap_of_boxes(box, tree_.box(node)); },
-             [&](Node node, double gap) { return gap > farthest || node == leaf; }, visit_leaf);
+    traverse([&](Node node) { return gap_of_boxes(box, tree_.box(node)); }, is_hopeless,
+             visit_leaf);
   }
 
   Neighbour nearest_foreign(Position p, const Parts& parts, double limit,
@@ -95,10 +108,15 @@ class Search final : public NeighbourSearch {
         reach = reach_beside(best, ties);
       }
     };
-    traverse([&](Node node) { return gap_to_box(p, node); },
-             [&](Node node, double gap) { return gap > reach || parts.of_node[node] == own; },
-             visit_leaf);
+    const auto is_hopeless = [&](Node node, double gap) {
+      return gap > reach || parts.of_node[node] == own || enters_too_late(node, p, best);
+    };
+    traverse([&](Node node) { return gap_to_box(p, node); }, is_hopeless, visit_leaf);
     return best;
+  }
+
+  double distance(Position p, Position q) const override {
+    return distance(p, q, gap_to_point(p, q));
   }
 
   void pairs_within(double limit, const VisitPair& visit,
@@ -170,9 +188,27 @@ class Search final : public NeighbourSearch {
   /// @param sum the result of gap_to_point(p, q), which equals the sum that the metric computes
   /// unless digits were lost.
   double distance(Position p, Position q, double sum) const {
+    const double length = length_of(p, q, sum);
+    if constexpr (kHasBirths) return std::max({length, births_->of_point(p), births_->of_point(q)});
+    return length;
+  }
+  double length_of(Position p, Position q, double sum) const {
     if constexpr (std::same_as<Gaps, EuclideanGaps>)
       if (is_root_of_sum_ && sum >= Gaps::kSmallestPlainSquare) return std::sqrt(sum);
     return metric_(p, q);
+  }
+  /// True if no point of a node can replace the worst neighbour of p, because the births of the
+  /// points or their row numbers are too large. Births are exact, so no slack is needed. Row
+  /// numbers must be compared because births make many distances equal: otherwise p would visit all
+  /// points at the distance of its own birth.
+  bool enters_too_late(Node node, Position p, const Neighbour& worst) const {
+    if constexpr (kHasBirths) {
+      const double least = std::max(births_->of_point(p), births_->least_birth(node));
+      if (least != worst.distance) return least > worst.distance;
+      return worst.position != kNone &&
+             births_->least_row(node) > tree_.rows()[worst.position];  // mutant: search-birth-tie
+    }
+    return false;
   }
   /// The largest sum with which a point may still replace the worst neighbour.
   double reach_beside(const Neighbour& worst, Ties ties) const {
@@ -226,6 +262,7 @@ class Search final : public NeighbourSearch {
   const Index axes_;
   const double slack_;
   const bool is_root_of_sum_;
+  const PointBirths* const births_;  // null if kHasBirths is false
 };
 
 /// True if distinct points are so close that the squares of their gaps are too small for
@@ -243,33 +280,57 @@ bool has_tiny_node(const KdTree& tree) {
 
 template <class Gaps>
 std::unique_ptr<NeighbourSearch> make_search(const KdTree& tree, const PointMetric& metric,
-                                             bool is_root_of_sum) {
+                                             bool is_root_of_sum, const PointBirths* births) {
+  const auto make =
+      [&]<int Axes>(std::integral_constant<int, Axes>) -> std::unique_ptr<NeighbourSearch> {
+    if (births)
+      return std::make_unique<Search<Gaps, Axes, true>>(tree, metric, is_root_of_sum, births);
+    return std::make_unique<Search<Gaps, Axes, false>>(tree, metric, is_root_of_sum, births);
+  };
   switch (tree.points().cols()) {
     case 2:
-      return std::make_unique<Search<Gaps, 2>>(tree, metric, is_root_of_sum);
+      return make(std::integral_constant<int, 2>());
     case 3:
-      return std::make_unique<Search<Gaps, 3>>(tree, metric, is_root_of_sum);
+      return make(std::integral_constant<int, 3>());
     default:
-      return std::make_unique<Search<Gaps, 0>>(tree, metric, is_root_of_sum);
+      return make(std::integral_constant<int, 0>());
   }
 }
 
 }  // namespace
 
+PointBirths::PointBirths(const KdTree& tree, std::span<const double> births,
+                         const RunContext& context)
+    : of_point_(tree.size(), &context.memory),
+      of_node_(tree.node_count(), Least{}, &context.memory) {
+  for (Position p = 0; p < tree.size(); ++p) of_point_[p] = births[tree.rows()[p]];
+  for (Node node = tree.node_count() - 1; node > 0; --node) {
+    Least& least = of_node_[node];
+    if (tree.is_leaf(node))
+      for (Position p = tree.begin(node); p < tree.end(node); ++p)
+        least.add({of_point_[p], tree.rows()[p]});
+    else
+      for (const std::size_t below : {2 * std::size_t{node}, 2 * std::size_t{node} + 1})
+        least.add(of_node_[below]);
+  }
+}
+
 std::unique_ptr<NeighbourSearch> NeighbourSearch::make(const KdTree& tree,
                                                        const PointMetric& metric,
-                                                       PointDistance distance, double p) {
+                                                       PointDistance distance, double p,
+                                                       const PointBirths* births) {
   // p-norms decrease as p grows. For p below 2, the Euclidean norm is therefore a lower bound. The
   // maximum norm is a lower bound for every p, and needs no squares.
   const double largest = largest_coordinate(tree.points());
   const bool is_euclidean = distance == PointDistance::euclidean;
   const bool are_squares_plain = kSmallestPlain < largest && largest < kLargestPlain;
-  if (distance == PointDistance::manhattan) return make_search<ManhattanGaps>(tree, metric, false);
+  if (distance == PointDistance::manhattan)
+    return make_search<ManhattanGaps>(tree, metric, false, births);
   if (is_euclidean && are_squares_plain && has_tiny_node(tree))
-    return make_search<TinyGaps>(tree, metric, false);
+    return make_search<TinyGaps>(tree, metric, false, births);
   if (are_squares_plain && (is_euclidean || (distance == PointDistance::minkowski && p <= 2)))
-    return make_search<EuclideanGaps>(tree, metric, metric.is_plain_euclidean());
-  return make_search<ChebyshevGaps>(tree, metric, false);
+    return make_search<EuclideanGaps>(tree, metric, metric.is_plain_euclidean(), births);
+  return make_search<ChebyshevGaps>(tree, metric, false, births);
 }
 
 }  // namespace ph

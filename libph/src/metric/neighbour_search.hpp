@@ -1,19 +1,51 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <limits>
 #include <memory>
+#include <memory_resource>
 #include <span>
+#include <vector>
 
 #include "ph/detail/metric/kd_tree.hpp"
 #include "ph/detail/metric/metric.hpp"
 
 namespace ph {
 
+/// The values at which the points of a tree enter, and the least value in each node.
+class PointBirths {
+ public:
+  using Position = KdTree::Position;
+  using Node = KdTree::Node;
+  /// @param births one per row of the points of which the tree was made, finite, >= 0.
+  PointBirths(const KdTree& tree, std::span<const double> births, const RunContext& context);
+
+  double of_point(Position p) const { return of_point_[p]; }
+  double least_birth(Node node) const { return of_node_[node].birth; }
+  std::uint32_t least_row(Node node) const { return of_node_[node].row; }
+
+ private:
+  struct Least {
+    double birth = std::numeric_limits<double>::infinity();
+    std::uint32_t row = UINT32_MAX;
+    void add(const Least& o) {
+      birth = std::min(birth, o.birth);
+      row = std::min(row, o.row);
+    }
+  };
+  std::pmr::vector<double> of_point_;
+  std::pmr::vector<Least> of_node_;
+};
+
 /// Exact searches in a k-d tree for nearest points and for all pairs within a given distance.
 /// Distances equal the distances of PointMetric to the last bit. If two points are at the same
 /// distance, the point with the smaller row number counts as nearer.
+///
+/// If the points have births, the distance of two points is the value of their edge: the largest of
+/// their distance and their births. If the births are core distances, this is the mutual
+/// reachability distance (Campello, Moulavi, Sander 2013).
 class NeighbourSearch {
  public:
   using Position = KdTree::Position;
@@ -47,6 +79,7 @@ class NeighbourSearch {
   /// The nearest point of another part at distance <= limit, or kNone.
   virtual Neighbour nearest_foreign(Position p, const Parts& parts, double limit,
                                     Ties ties) const = 0;
+  virtual double distance(Position p, Position q) const = 0;
   using VisitPair = std::function<void(Index, Index, double)>;
   /// Calls `visit(i, j, distance)` once for each pair of rows i < j at distance <= limit, in an
   /// order that depends only on the points.
@@ -61,8 +94,10 @@ class NeighbourSearch {
   /// @param tree must outlive the search. @param metric must be the metric of tree.points(), and
   /// must outlive the search.
   /// @param distance a distance that can be searched. @param p exponent of `minkowski`.
+  /// @param births null if the points have none; must outlive the search.
   static std::unique_ptr<NeighbourSearch> make(const KdTree& tree, const PointMetric& metric,
-                                               PointDistance distance, double p);
+                                               PointDistance distance, double p,
+                                               const PointBirths* births = nullptr);
 };
 
 }  // namespace ph

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <atomic>
+#include <optional>
 
 #include "libph/src/metric/distinct_points.hpp"
 #include "libph/src/metric/neighbour_search.hpp"
@@ -21,11 +22,12 @@ namespace {
 // has.
 class Boruvka {
  public:
-  Boruvka(const KdTree& tree, const NeighbourSearch& search, const PointMetric& metric,
+  /// @param search a search with these births; null if there are none.
+  Boruvka(const KdTree& tree, const NeighbourSearch& search, const PointBirths* births,
           double limit, const RunContext& context)
       : tree_(tree),
         search_(search),
-        metric_(metric),
+        births_(births),
         limit_(limit),
         context_(context),
         components_(tree.size()),
@@ -124,7 +126,7 @@ class Boruvka {
       last = q;
       if (component_[q] != own) break;
     }
-    if (last != point.first.position) point.first = {metric_(p, last), last};
+    if (last != point.first.position) point.first = {search_.distance(p, last), last};
     if (point.place == kKnown) point.knows = Knows::lower_bound;  // mutant: forest-known
   }
   void offer(Position p) {
@@ -144,7 +146,7 @@ class Boruvka {
     for (Position p = 1; p < points_.size(); ++p) {
       const std::uint32_t a = component_[p - 1], b = component_[p];
       if (a == b || (best_[a] != kNone && best_[b] != kNone)) continue;
-      const double d = metric_(p - 1, p);
+      const double d = search_.distance(p - 1, p);
       reach_[a] = std::min<double>(reach_[a], d);
       reach_[b] = std::min<double>(reach_[b], d);
     }
@@ -156,7 +158,7 @@ class Boruvka {
         const Position p = asking_[i];
         std::atomic<double>& reach = reach_[component_[p]];
         double within = reach.load(std::memory_order_relaxed);
-        if (points_[p].first.distance > within) continue;
+        if (least_distance(p) > within) continue;
         const Neighbour found = search_.nearest_foreign(p, {component_, node_component_}, within,
                                                         NeighbourSearch::Ties::by_row);
         const bool is_none = found.position == kNone;
@@ -169,10 +171,14 @@ class Boruvka {
     for_each_piece("spanning forest", asking_.size(), 256, context_, ask_tree);
     for (const Position p : asking_) offer(p);
   }
+  double birth(Position p) const { return births_ ? births_->of_point(p) : 0; }
+  /// No foreign point is nearer to p.
+  double least_distance(Position p) const { return std::max(points_[p].first.distance, birth(p)); }
   bool is_worth_asking(Position p) const {
     if (points_[p].knows == Knows::nearest) return false;
     const auto& [distance, position] = points_[p].first;
     const double reach = reach_[component_[p]].load(std::memory_order_relaxed);
+    if (birth(p) > reach) return false;  // mutant: forest-birth
     if (position == kNone || distance != reach) return distance < reach;
     const Position best = best_[component_[p]];
     return best == kNone || precedes(p, best);  // mutant: forest-bound-tie
@@ -211,7 +217,7 @@ class Boruvka {
 
   const KdTree& tree_;
   const NeighbourSearch& search_;
-  const PointMetric& metric_;
+  const PointBirths* const births_;
   const double limit_;
   const RunContext& context_;
   std::size_t components_;
@@ -226,6 +232,21 @@ class Boruvka {
   std::pmr::vector<Position> asking_;
 };
 
+/// For each point, the first point that equals it and has no birth, if the point has none either;
+/// otherwise the point itself.
+std::pmr::vector<std::uint32_t> first_copies(PointsView points, std::span<const double> births,
+                                             const RunContext& context) {
+  std::pmr::vector<std::uint32_t> first = first_equal_points(points, context);
+  if (births.empty()) return first;
+  std::pmr::vector<std::uint32_t> first_at_zero(first.size(), UINT32_MAX, &context.memory);
+  for (std::uint32_t i = 0; i < first.size(); ++i) {
+    std::uint32_t& at_zero = first_at_zero[first[i]];
+    if (births[i] == 0 && at_zero == UINT32_MAX) at_zero = i;
+    first[i] = births[i] == 0 ? at_zero : i;  // mutant: forest-born-copies
+  }
+  return first;
+}
+
 }  // namespace
 
 bool has_fast_spanning_forest(PointsView points, PointDistance distance) {
@@ -233,22 +254,26 @@ bool has_fast_spanning_forest(PointsView points, PointDistance distance) {
   return points.cols() <= most_axes && NeighbourSearch::can_search(distance);
 }
 
-FlagEdges spanning_forest(PointsView points, PointDistance distance, double p, double limit,
-                          const RunContext& context, double largest) {
+FlagEdges spanning_forest(PointsView points, PointDistance distance, double p,
+                          std::span<const double> births, double limit, const RunContext& context,
+                          double largest) {
   const PointMetric checked(points, distance, p);
   points = checked.points();  // now the rows are contiguous
   FlagEdges forest(&context.memory);
-  const std::pmr::vector<std::uint32_t> first_equal = first_equal_points(points, context);
+  const std::pmr::vector<std::uint32_t> first = first_copies(points, births, context);
   // Each copy is joined to the first point that equals it. No other edge of a copy comes before the
   // corresponding edge of that first point.
-  for (std::uint32_t i = 0; i < first_equal.size(); ++i)
-    if (first_equal[i] != i) forest.push_back({0.0, i, first_equal[i]});  // mutant: forest-copies
-  const std::pmr::vector<std::uint32_t> distinct = distinct_points(first_equal, context);
+  for (std::uint32_t i = 0; i < first.size(); ++i)
+    if (first[i] != i) forest.push_back({0.0, i, first[i]});  // mutant: forest-copies
+  const std::pmr::vector<std::uint32_t> distinct = distinct_points(first, context);
   if (distinct.size() > 1) {
     const KdTree tree(points, distinct, context);
     const PointMetric metric(tree.points(), distance, p, largest);
-    const auto search = NeighbourSearch::make(tree, metric, distance, p);
-    Boruvka(tree, *search, metric, limit, context).run(forest);
+    std::optional<PointBirths> of_tree;
+    if (!births.empty()) of_tree.emplace(tree, births, context);
+    const PointBirths* const born = of_tree ? &*of_tree : nullptr;
+    const auto search = NeighbourSearch::make(tree, metric, distance, p, born);
+    Boruvka(tree, *search, born, limit, context).run(forest);
   }
   return forest;
 }

@@ -50,10 +50,11 @@ RipsGraph forest_of_points(PointsView points, const RipsOptions& options,
                            const VertexWeights& weights, const RunContext& context) {
   if (options.device == Device::gpu)  // mutant: device-gpu
     return RipsGraph::forest_on_gpu(points, options.threshold, context);
-  const bool is_weighted = !weights.births().empty();
-  if (!is_weighted && has_fast_spanning_forest(points, options.distance))
+  const bool are_balls_whole =
+      weights.births().empty() || weights.exponent() == WeightExponent::infinity;
+  if (are_balls_whole && has_fast_spanning_forest(points, options.distance))
     return RipsGraph::forest_of_points(points, options.distance, options.minkowski_p,
-                                       options.threshold, context);
+                                       weights.births(), options.threshold, context);
   return RipsGraph::forest_of_metric(PointMetric(points, options.distance, options.minkowski_p),
                                      options.threshold, context, weights);
 }
@@ -171,7 +172,7 @@ void check_device(const RipsData& data, const RipsOptions& options) {
     found = "distances";
   else if (options.distance != PointDistance::euclidean)  // mutant: device-distance
     found = "a distance that is not Euclidean";
-  else if (!options.births.empty() || options.dtm_neighbours)  // mutant: device-births
+  else if (!options.births.empty() || options.computes_births())  // mutant: device-births
     found = "births of vertices";
   if (!found.empty())
     throw Error(
@@ -186,7 +187,7 @@ void check_approximation(const RipsData& data, const RipsOptions& options) {
   if (std::holds_alternative<SparseDistances>(data))
     throw Error(ErrorKind::usage, "sparse Rips filtrations need all distances, found only some");
   const auto* matrix = std::get_if<DistanceMatrix>(&data);
-  if (!options.births.empty() || options.dtm_neighbours || (matrix && !matrix->births().empty()))
+  if (!options.births.empty() || options.computes_births() || (matrix && !matrix->births().empty()))
     throw Error(ErrorKind::usage,
                 "sparse Rips filtrations need vertices that enter at 0, found births of vertices");
   SparseRips::check_epsilon(*options.approximation);
@@ -210,12 +211,18 @@ void check_options(const RipsData& data, const RipsOptions& options, const RunCo
   check_device(data, options);
   check_approximation(data, options);
   if (std::holds_alternative<SparseDistances>(data) &&
-      (options.subsample || options.dtm_neighbours))
+      (options.subsample || options.computes_births()))
     throw Error(ErrorKind::usage,
-                "distances: found only some, expected all for a subsample or "
-                "a distance to a measure");
+                "distances: found only some, expected all for a subsample, a distance to a measure "
+                "or core distances");
   if (options.subsample) detail::check(*options.subsample, size);
+  if (options.dtm_neighbours && options.core_neighbours)
+    throw Error(ErrorKind::usage,
+                "births: found neighbours for both the distance to a measure and core distances, "
+                "expected one of them");
   if (options.dtm_neighbours && size > 0) detail::check_neighbours(*options.dtm_neighbours, size);
+  if (options.core_neighbours && size > 0)
+    detail::check_core_neighbours(*options.core_neighbours, size);
   const auto* matrix = std::get_if<DistanceMatrix>(&data);
   const std::span<const double> births =
       matrix && options.births.empty() ? matrix->births() : std::span(options.births);

@@ -124,6 +124,8 @@ std::unique_ptr<const VertexChoice> choose(const RipsData& data, const RipsOptio
       choice->births = distance_to_measure(set, *options.dtm_neighbours, how..., context);
       for (double& birth : choice->births) birth *= 2;  // births are diameters
     }
+    if (options.core_neighbours)
+      choice->births = core_distances(set, *options.core_neighbours, how..., context);
     if (options.subsample) {
       const GreedyPermutation sample = greedy_permutation(set, *options.subsample, how..., context);
       choice->vertices = sample.ascending();
@@ -186,7 +188,7 @@ struct Rips::State {
   std::unique_ptr<const detail::MadeForm> make(RipsForm form, const RunContext& call) const {
     ChosenVertices vertices{options.vertices, options.births};
     if (options.subsample) vertices.vertices = choice(call).vertices;
-    if (options.dtm_neighbours) vertices.births = choice(call).births;
+    if (options.computes_births()) vertices.births = choice(call).births;
     if (const auto* matrix = std::get_if<DistanceMatrix>(&data());
         matrix && vertices.births.empty())
       vertices.births = matrix->births();
@@ -249,7 +251,7 @@ bool Rips::has_input() const { return state_->input != nullptr; }
 bool Rips::has_births() const {
   if (state_->given) return !state_->given->births().empty();
   const auto* matrix = state_->input ? std::get_if<DistanceMatrix>(&state_->input->data) : nullptr;
-  return !state_->options.births.empty() || state_->options.dtm_neighbours ||
+  return !state_->options.births.empty() || state_->options.computes_births() ||
          (matrix && !matrix->births().empty());
 }
 

@@ -106,11 +106,12 @@ RipsGraph RipsGraph::with_edges(const RipsGraph& graph, FlagEdges&& edges,
 }
 
 RipsGraph RipsGraph::forest_of_points(PointsView points, PointDistance distance, double p,
+                                      std::span<const double> births,
                                       std::optional<double> threshold, const RunContext& context) {
   check_arguments(points.rows(), threshold);
   const double limit = threshold.value_or(kNoLimit);
-  return of_forest(points.rows(), limit, spanning_forest(points, distance, p, limit, context),
-                   context);
+  return of_forest(points.rows(), limit,
+                   spanning_forest(points, distance, p, births, limit, context), context, births);
 }
 
 RipsGraph RipsGraph::forest_on_gpu(PointsView points, std::optional<double> threshold,

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Spanning forests give H0 without the graph of all edges. The tests compare them with the oracle
 // on the whole filtration.
+#include <algorithm>
 #include <limits>
 
+#include "ph/distance_to_measure.hpp"
 #include "ph/eigen.hpp"
 #include "ph/estimate.hpp"
 #include "ph/merge_tree.hpp"
@@ -31,7 +33,7 @@ void expect_components_of_the_whole(const Data& data, const RipsOptions& options
   const std::vector<Pair> expected = components_of(rips, RipsForm::edges, Engine::standard);
   const RipsGraph& forest = rips.graph(RipsForm::forest);
   EXPECT_TRUE(forest.is_forest());
-  EXPECT_EQ(forest.size(), rips.size());
+  EXPECT_EQ(forest.size(), rips.graph(RipsForm::edges).size());
   EXPECT_LE(forest.edge_count(), static_cast<std::size_t>(std::max<Index>(forest.size() - 1, 0)));
   for (const auto& engine : detail::engine_facts()) {
     if (engine.id == Engine::standard || engine.id == Engine::gradient ||  // for images only
@@ -42,6 +44,21 @@ void expect_components_of_the_whole(const Data& data, const RipsOptions& options
   const Options task{.max_dim = 0, .min_persistence = -1};
   EXPECT_EQ(plan(rips, task).form, RipsForm::forest);
   EXPECT_EQ(pairs_of(persistence(rips, task)), expected);
+}
+
+/// Core distances, numbers that have nothing to do with the points, or a few values that many
+/// points share. In each case, some points may enter at 0.
+std::vector<double> births_of(Generator& random, const Points& points, PointDistance distance,
+                              double minkowski_p, double unit) {
+  const Index n = points.rows();
+  const int kind = random.integer(0, 2);
+  if (kind == 0 && n > 1)
+    return core_distances(points, random.integer(1, int(std::min<Index>(n - 1, 9))), distance,
+                          minkowski_p);
+  std::vector<double> births(static_cast<std::size_t>(n));
+  for (double& b : births)
+    if (random.integer(0, 3) > 0) b = kind == 1 ? unit * random.real() : unit * random.value(true);
+  return births;
 }
 
 constexpr PointDistance kSearched[] = {PointDistance::euclidean, PointDistance::manhattan,
@@ -60,6 +77,8 @@ TEST(Components, OfPointsAreThoseOfTheWholeFiltration) {
     RipsOptions options{.distance = kSearched[random.integer(0, 3)]};
     options.minkowski_p = random.coin() ? 1 + random.real() : 1 + 9 * random.real();
     if (random.coin()) options.threshold = unit * random.value(ties);
+    if (random.coin())
+      options.births = births_of(random, points, options.distance, options.minkowski_p, unit);
     expect_components_of_the_whole(points, options);
   });
 }
@@ -97,6 +116,10 @@ TEST(Components, OfSparseDistances) {
   });
 }
 
+bool same_edges(const FlagEdge& a, const FlagEdge& b) {
+  return a.value == b.value && a.u == b.u && a.v == b.v;
+}
+
 // A distance defined by the user takes indices, so it works for any points.
 struct AnyDistance {
   const PointMetric& metric;
@@ -121,14 +144,18 @@ TEST(Components, OfManyPointsAreThoseOfAllPairs) {
       for (Index k = 1; k < d; ++k) as_matrix(points).col(k) = as_matrix(points).col(0);
     RipsOptions options{.distance = kSearched[random.integer(0, 3)], .minkowski_p = 3};
     if (random.coin()) options.threshold = random.real() / 2;
+    if (random.coin())
+      options.births = births_of(random, points, options.distance, options.minkowski_p, 1);
     const PointMetric metric(points, options.distance, options.minkowski_p);
-    const auto expected =
-        components_of(Rips(AnyDistance{metric}, options), RipsForm::forest, Engine::union_find);
+    const Rips of_all_pairs(AnyDistance{metric}, options);
+    const auto expected = components_of(of_all_pairs, RipsForm::forest, Engine::union_find);
     for (const int threads : {1, 2, 5}) {
       RunContext context;
       context.threads = threads;
       const Rips rips(points, options, context);
       EXPECT_EQ(components_of(rips, RipsForm::forest, Engine::union_find, context), expected);
+      EXPECT_TRUE(std::ranges::equal(rips.graph(RipsForm::forest).edges(),
+                                     of_all_pairs.graph(RipsForm::forest).edges(), same_edges));
     }
   });
 }

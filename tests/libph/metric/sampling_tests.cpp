@@ -7,6 +7,7 @@
 #include "ph/distance_to_measure.hpp"
 #include "ph/eigen.hpp"
 #include "ph/greedy_permutation.hpp"
+#include "ph/merge_tree.hpp"
 #include "ph/persistence.hpp"
 #include "tests/support/conformance.hpp"
 #include "tests/support/expect_error.hpp"
@@ -303,6 +304,49 @@ TEST(DistanceToMeasure, OfLargeAndSmallPointsAndBadNumbers) {
   for (const Index bad : {-1, 0, 4})
     expect_error(ErrorKind::usage, "neighbours", [&] { distance_to_measure(line, bad); });
   EXPECT_EQ(distance_to_measure(DistanceMatrix(2, {kInf}), 2)[0], kInf);
+}
+
+TEST(CoreDistances, AreWhatTheyAreByDefinition) {
+  for_each_seed(500, [](Generator& random, bool ties, std::int64_t) {
+    const Points points = random_points(random, random.integer(0, 9) == 0 ? 600 : 20, ties);
+    const PointDistance distance = kMetrics[random.integer(0, 3)];
+    const PointMetric metric(points, distance);
+    const Index n = points.rows(), k = random.integer(0, static_cast<int>(n) - 1);
+    const std::vector<double> found = core_distances(points, k, distance);
+    EXPECT_EQ(core_distances(metric, k), found);
+    for (Index i = 0; i < n; ++i) {
+      std::vector<double> distances{0};
+      for (Index j = 0; j < n; ++j)
+        if (j != i) distances.push_back(metric(i, j));
+      std::sort(distances.begin() + 1, distances.end());
+      EXPECT_EQ(found[static_cast<std::size_t>(i)], distances[static_cast<std::size_t>(k)]);
+    }
+  });
+}
+
+TEST(CoreDistances, CopiesCountAndBadNumbersAreRefused) {
+  const Points line{{0}, {0}, {0}, {3}, {4}};
+  EXPECT_EQ(core_distances(line, 2), (std::vector<double>{0, 0, 0, 3, 4}));
+  EXPECT_EQ(core_distances(line, 4), (std::vector<double>{4, 4, 4, 3, 4}));
+  EXPECT_EQ(core_distances(Points(0, 2), 0).size(), 0U);
+  EXPECT_EQ(core_distances(DistanceMatrix(2, {kInf}), 1)[0], kInf);
+  for (const Index bad : {-1, 5})
+    expect_error(ErrorKind::usage, "number of other points, 4", [&] { core_distances(line, bad); });
+  expect_error(ErrorKind::usage, "one of them",
+               [&] { Rips(line, {.dtm_neighbours = 2, .core_neighbours = 2}); });
+  expect_error(ErrorKind::usage, "core distances",
+               [&] { Rips(SparseDistances(2, {}), {.core_neighbours = 1}); });
+  expect_error(ErrorKind::bad_data, "finite", [&] { core_distances(Points{{kInf}, {0}}, 0); });
+}
+
+// The mutual reachability distances of HDBSCAN*, without halves.
+TEST(CoreDistances, AreTheBirthsOfARipsFiltration) {
+  const Points line{{0}, {1}, {3}, {10}};
+  const MergeTree tree = merge_tree(Rips(line, {.core_neighbours = 2}));
+  EXPECT_EQ(tree.births, (std::vector<double>{3, 2, 3, 9}));
+  std::vector<double> values;
+  for (const Merge& m : tree.merges) values.push_back(m.value);
+  EXPECT_EQ(values, (std::vector<double>{3, 3, 9}));
 }
 
 // An outlier lies between two dense groups. Without weights, it would be a separate component.

@@ -158,7 +158,7 @@ NumberedForest CloudBlocks::forest(std::uint32_t block, double limit,
   // mutant: cloud-largest
   result.edges = spanning_forest(
       PointsView(members.coordinates.data(), static_cast<Index>(size), points_.cols()),
-      PointDistance::euclidean, 2, limit, context, largest_);
+      PointDistance::euclidean, 2, {}, limit, context, largest_);
   members.coordinates = std::pmr::vector<double>(&context.memory);
 
   // Only points that have an edge are listed in the forest.

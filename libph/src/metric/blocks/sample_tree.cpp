@@ -184,7 +184,7 @@ Bottlenecks::Bottlenecks(const SampleTree& tree, double largest, const RunContex
       first_(length_, &context.memory),
       within_(tree.node_count(), 0.0, &context.memory),
       edges_(&context.memory) {
-  FlagEdges forest = spanning_forest(tree.points(), PointDistance::euclidean, 2,
+  FlagEdges forest = spanning_forest(tree.points(), PointDistance::euclidean, 2, {},
                                      std::numeric_limits<double>::infinity(), context, largest);
   std::ranges::sort(forest, precedes);
   std::iota(parent_.begin(), parent_.end(), 0U);

@@ -49,7 +49,7 @@ std::string_view BetaSkeletonEngine::obstacle(const RipsInput& input, const Task
   if (options.distance != PointDistance::euclidean) return "the Euclidean distance";
   if (input.points->cols() < 1 || input.points->cols() > kMostPointCoordinates)
     return "points of 1 to 4 coordinates";
-  if (!options.births.empty() || options.dtm_neighbours) return "vertices that all enter at 0";
+  if (!options.births.empty() || options.computes_births()) return "vertices that all enter at 0";
   if (options.approximation) return "the full filtration, not a sparse one";
   if (!has_plain_coordinates(*input.points))
     return "coordinates that are 0 or between 1e-120 and 1e150 in absolute value";

@@ -5,6 +5,7 @@
 #include <limits>
 #include <memory_resource>
 #include <numeric>
+#include <span>
 #include <vector>
 
 #include "ph/detail/core/flag_filtration.hpp"
@@ -70,11 +71,16 @@ bool has_fast_spanning_forest(PointsView points, PointDistance distance);
 /// For points: Borůvka's algorithm (1926) with a k-d tree that finds the nearest point of another
 /// component (March, Ram, Gray, "Fast Euclidean minimum spanning tree", 2010). Usually O(n log n)
 /// in a space of few dimensions, never more than O(n^2 log n). O(n) memory.
+/// With births, the value of an edge is the largest of its length and the births of its two ends;
+/// the nodes of the tree also store their least birth. If the births are core distances, this is
+/// the forest of HDBSCAN* (Campello, Moulavi, Sander 2013; McInnes, Healy 2017).
 /// @param points one point per row. @param p exponent of PointDistance::minkowski.
+/// @param births one per point, finite, >= 0; if empty, all births are 0.
 /// @param largest as for PointMetric, if the points are a part of a cloud. Precondition:
 /// has_fast_spanning_forest(points, distance).
 /// @throws Error (bad_data) as PointMetric.
-FlagEdges spanning_forest(PointsView points, PointDistance distance, double p, double limit,
-                          const RunContext& context, double largest = 0);
+FlagEdges spanning_forest(PointsView points, PointDistance distance, double p,
+                          std::span<const double> births, double limit, const RunContext& context,
+                          double largest = 0);
 
 }  // namespace ph

@@ -66,7 +66,10 @@ class RipsGraph {
                                     const RunContext& context, const VertexWeights& weights = {});
   /// The same forest for points, in near-linear time. Precondition:
   /// has_fast_spanning_forest(points, distance).
+  /// @param births the values at which the points enter, with WeightExponent::infinity; if empty,
+  /// all points enter at 0.
   static RipsGraph forest_of_points(PointsView points, PointDistance distance, double p,
+                                    std::span<const double> births,
                                     std::optional<double> threshold, const RunContext& context);
   /// The same forest for Euclidean points, computed on a GPU. @throws Error (not_built_in,
   /// resource); Error (usage) as gpu::spanning_forest.

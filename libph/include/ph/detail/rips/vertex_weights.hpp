@@ -38,6 +38,7 @@ class VertexWeights {
 
   /// One birth per vertex; if empty, all vertices enter at 0.
   std::span<const double> births() const { return births_; }
+  WeightExponent exponent() const { return exponent_; }
 
   /// The diameter at which the balls around two points meet, which is never before both are born.
   /// Let b and c be the births and d the distance. As long as no ball reaches the other point

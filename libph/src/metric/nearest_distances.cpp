@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#include "ph/detail/metric/nearest_distances.hpp"
+
+#include <limits>
+#include <numeric>
+
+#include "libph/src/metric/neighbour_search.hpp"
+#include "ph/detail/core/parallel.hpp"
+#include "ph/detail/metric/spanning_forest.hpp"
+
+namespace ph::detail {
+
+void for_each_nearest(PointsView points, Index k, PointDistance distance, double p,
+                      std::string_view stage, const UseNearest& use, const RunContext& context) {
+  const PointMetric checked(points, distance, p);
+  points = checked.points();  // now the rows are contiguous
+  // A list of neighbours is kept sorted while it grows. If the lists are longer than this,
+  // computing all distances is faster.
+  constexpr Index most_neighbours = 512;
+  if (k == 0 || k > most_neighbours || points.cols() == 0 ||
+      !has_fast_spanning_forest(points, distance)) {
+    for_each_nearest(checked, k, stage, use, context);
+    return;
+  }
+  std::pmr::vector<std::uint32_t> rows(static_cast<std::size_t>(points.rows()), &context.memory);
+  std::iota(rows.begin(), rows.end(), 0U);
+  const KdTree tree(points, rows, context);
+  const PointMetric metric(tree.points(), distance, p);
+  const auto search = NeighbourSearch::make(tree, metric, distance, p);
+  const auto count = static_cast<std::size_t>(k);
+  const auto find = [&](std::size_t begin, std::size_t end) {
+    std::vector<NeighbourSearch::Neighbour> found(KdTree::kLeafSize * count);
+    std::vector<double> distances(count);
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto leaf = static_cast<KdTree::Node>(tree.first_leaf() + i);
+      search->nearest(leaf, count, std::numeric_limits<double>::infinity(),
+                      NeighbourSearch::Ties::any, found);
+      for (KdTree::Position q = tree.begin(leaf); q < tree.end(leaf); ++q) {
+        const auto* const list = &found[(q - tree.begin(leaf)) * count];
+        for (std::size_t j = 0; j < count; ++j) distances[j] = list[j].distance;
+        use(Index{tree.rows()[q]}, distances);
+      }
+    }
+  };
+  for_each_piece(stage, tree.first_leaf(), 128, context, find);
+}
+
+}  // namespace ph::detail
