@@ -28,7 +28,8 @@ MAY_INCLUDE = {
     "significance": "core metric",
     "alpha": "core metric components reduction complex",
     "facade": "core metric image components reduction complex rips cubical alpha",
-    "loops": "core metric complex components reduction rips alpha facade",
+    "clusters": "core metric components complex rips facade",
+    "loops": "core metric complex components reduction rips alpha facade clusters",
     "c": "core metric image complex rips cubical facade",
     "io": "core metric image complex rips alpha facade",
     "plot": "core components io",
@@ -37,7 +38,7 @@ MAY_INCLUDE = {
     "common": "core metric image complex rips facade diagram io plot report",
     "barcode": "core metric image components complex rips cubical alpha facade loops diagram significance io "
                "plot report common",
-    "python": "core metric image complex rips alpha facade loops diagram vectors significance io plot segment "
+    "python": "core metric image complex rips alpha facade clusters loops diagram vectors significance io plot segment "
               "report",
     "distance": "core metric diagram significance io common",
     "vectorise": "core image complex vectors diagram io report common",
@@ -57,6 +58,7 @@ HEADERS = {
     "significance": "significance",
     "alpha": "alpha",
     "facade": "custom estimate merge_tree parts/cloud_part parts/image_loops parts/image_part persistence",
+    "clusters": "cluster_tree",
     "loops": "loops ph",
     "plot": "io/plot",
     "segment": "label_tracker pcl scene_tree segment",
@@ -75,7 +77,7 @@ PUBLIC = ("libph/include", "libsegment/include", "libsegment/pcl/include", "libr
 PRIVATE = ("libph/src/", "libsegment/src/", "libreport/report/")
 # The most headers that each folder of public headers may have. Headers that users do not include
 # themselves belong in ph/detail.
-MOST_PUBLIC = {"libph/include/ph": 27, "libph/include/ph/io": 5,
+MOST_PUBLIC = {"libph/include/ph": 28, "libph/include/ph/io": 5,
                "libph/include/ph/parts": 3, "libsegment/include/ph": 3,
                "libsegment/pcl/include/ph": 1, "libreport/include/ph": 2}
 

@@ -21,6 +21,11 @@ MUTANTS = [
         ("elder rule reversed", "elder-rule", "<", ">"),
         ("merge tree: sizes not added up", "merge-sizes", "+=", "="),
     ]),
+    *found_by("cluster_tree_tests", [
+        ("clusters: larger than the least size", "cluster-real", ">=", ">"),
+        ("clusters: children kept at equal mass", "cluster-mass", ">=", ">"),
+        ("clusters: the least size is too small", "cluster-recut", "<", "<="),
+    ]),
     *found_by("persistence_tests", [
         ("plan: any number is a field", "field-is-prime", ""),
         ("plan: boundaries without incidences are over any field", "field-without-incidences", "!= 2", "== 4"),
@@ -40,10 +45,13 @@ MUTANTS = [
     ]),
     *found_by("components_tests", [
         ("forest: threshold exclusive", "forest-threshold", "<=", "<"),
-        ("forest: copies joined one to the next", "forest-copies", ", first_equal[i]", ", i - 1"),
+        ("forest: copies joined one to the next", "forest-copies", ", first[i]", ", i - 1"),
         ("forest: neighbours known are all there are", "forest-known",
          "if (point.place == kKnown) point = {{limit_, kNone}, kKnown, Knows::lower_bound};"),
         ("forest: bounds that tie are never asked", "forest-bound-tie", "return best == kNone;"),
+        ("forest: points born at the reach are not asked", "forest-birth", ">", ">="),
+        ("forest: copies with births joined at 0", "forest-born-copies", ": i", ": first[i]"),
+        ("search: ties of births by the last row", "search-birth-tie", "> tree_", "< tree_"),
         ("forest: a leaf is of its first point's component", "forest-leaf",
          "if (p == tree_.size()) return Parts::kMixed;"),
         ("search: ties by the order of the tree", "search-tie",

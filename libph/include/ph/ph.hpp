@@ -2,6 +2,7 @@
 #pragma once
 // The umbrella header: complexes, engines, barcodes. For files see ph/io/read.hpp and
 // ph/io/write.hpp.
+#include "ph/cluster_tree.hpp"
 #include "ph/cubical.hpp"
 #include "ph/distance_to_measure.hpp"
 #include "ph/estimate.hpp"

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "ph/cluster_tree.hpp"
+
+namespace ph::detail {
+
+/// The life of clusters and points as a function of the value, see ClusterScale.
+class Lifetime {
+ public:
+  /// @param largest the largest finite value of an edge.
+  Lifetime(ClusterScale scale, double largest) : scale_(scale), largest_(largest) {}
+
+  double operator()(double value) const {
+    switch (scale_) {
+      case ClusterScale::linear:
+        return value < kInfinity ? largest_ - value : 0;
+      case ClusterScale::logarithmic:
+        if (value == 0) return kInfinity;
+        return value < kInfinity ? std::log(largest_) - std::log(value) : 0;
+      case ClusterScale::inverse:
+        break;
+    }
+    return 1 / value;
+  }
+  /// The quotient of the lives of a point and of the last point of its cluster, at most 1.
+  /// @param least the value of the last point, at most `value` unless the point leaves later.
+  double share(double least, double value) const {
+    if (value <= least) return 1;
+    if (!(value < kInfinity)) return 0;
+    if (scale_ == ClusterScale::inverse) return least / value;
+    const double of_last = (*this)(least);
+    return of_last < kInfinity ? (*this)(value) / of_last : 0;
+  }
+
+ private:
+  ClusterScale scale_;
+  double largest_;
+};
+
+}  // namespace ph::detail
+
+namespace ph {
+
+struct ClusterTree::Data {
+  Index min_size;
+  ClusterScale scale;
+  detail::Lifetime life;
+  std::vector<Cluster> clusters;
+  std::vector<std::uint32_t> cluster_of;  // by point
+  std::vector<double> leaves_at;          // by point
+  // Only for a tree from which others are made: the points by (cluster, value), and for each
+  // cluster its first place in that order, and the end.
+  std::vector<std::uint32_t> order = {};
+  std::vector<std::uint32_t> first = {};
+};
+
+}  // namespace ph
