@@ -24,7 +24,7 @@ def _barcode(request: Request) -> Barcode:
 def rips(X: Any, *, max_dim: int | None = 1, min_dim: int = 0, threshold: float | None = None,
          metric: Any = "euclidean", minkowski_p: float = 2.0, field: int = 2,
          weights: ArrayLike | str | None = None, dtm_neighbors: int | None = None,
-         weight_exponent: float | None = None, subsample: int | None = None,
+         core_neighbors: int | None = None, weight_exponent: float | None = None, subsample: int | None = None,
          subsample_radius: float | None = None, approximation: float | None = None,
          merge_equal_points: bool | None = None, device: str = "cpu",
          collapse: str | bool = "auto",
@@ -59,11 +59,15 @@ def rips(X: Any, *, max_dim: int | None = 1, min_dim: int = 0, threshold: float 
         The exponent of ``metric="minkowski"``.
     field : int
         Coefficients are in Z/p for this prime p.
-    weights : array_like or "dtm", optional
-        The diameter at which each point enters; "dtm": twice its distance to the measure of its
-        `dtm_neighbors` nearest points, including itself.
+    weights : array_like, "dtm" or "core", optional
+        The diameter at which each point enters. "dtm": twice its distance to the measure of its
+        `dtm_neighbors` nearest points, including itself. "core": its core distance, the distance to
+        its nearest other point of rank `core_neighbors`; edges then enter at the mutual
+        reachability distances of HDBSCAN*.
     dtm_neighbors : int, optional
         The number of neighbours for ``weights="dtm"``.
+    core_neighbors : int, optional
+        The number of neighbours for ``weights="core"``.
     weight_exponent : {1, 2, inf}, optional
         The exponent that governs how a ball grows after the birth of its point. Default: 1 for
         "dtm", inf otherwise.

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 _HEIGHT = 720  # size in pixels of a frame in a notebook
 # The keywords of the computation that a barcode stores.
 _KNOWN = {
-    "rips": ("metric", "minkowski_p", "weights", "dtm_neighbors", "weight_exponent", "subsample",
+    "rips": ("metric", "minkowski_p", "weights", "dtm_neighbors", "core_neighbors", "weight_exponent", "subsample",
              "subsample_radius", "approximation", "nan", "diagonal", "symmetrise"),
     "cubical": ("construction", "superlevel", "periodic", "nan"),
     **dict.fromkeys(ALPHA_VALUES, ("squared", "weights", "period", "nan"))}

@@ -164,6 +164,7 @@ def rips_request(o: dict[str, Any]) -> Request:
                        memory_limit=_run.memory_limit(o["run"]))
     threshold = _threshold(o, 0)
     births, neighbours, exponent = _weights(o, source)
+    is_weighted = births is not None or any(k is not None for k in neighbours.values())
     subsample, radius, approximation = o["subsample"], o["subsample_radius"], o["approximation"]
     if subsample is not None:
         subsample = _options.whole("subsample", subsample, 1)
@@ -178,13 +179,13 @@ def rips_request(o: dict[str, Any]) -> Request:
                         ("approximation", approximation)):
         if value is None:
             continue
-        if births is not None or neighbours is not None:
+        if is_weighted:
             raise UsageError(f"{name}: cannot be combined with weights; leave out one of them")
         if not source.space.is_complete:
             raise UsageError(f"{name}: needs all distances, found only some of them")
     task = _task_of(o, _loops_of(o, "tight"))
-    keywords = {**o, "threshold": threshold, "dtm_neighbours": neighbours,
-                "weight_exponent": exponent, "approximation": approximation,
+    keywords = {**o, "threshold": threshold, "dtm_neighbours": neighbours["dtm_neighbors"],
+                "core_neighbours": neighbours["core_neighbors"], "weight_exponent": exponent, "approximation": approximation,
                 "merge_equal_points": merge}
     recipe = _core.RipsRecipe(source.space, keywords, births, subsample, radius, source.ids)
     weights = o["weights"] if isinstance(o["weights"], str) else None if births is None else "given"
@@ -194,7 +195,7 @@ def rips_request(o: dict[str, Any]) -> Request:
     meta = _meta("rips", o, points=source.points, coordinates=source.coordinates,
                  metric="precomputed" if source is o["X"] else metric_name(o["metric"]),
                  minkowski_p=o["minkowski_p"] if o["metric"] == "minkowski" else None,
-                 weights=weights, dtm_neighbors=neighbours, approximation=approximation,
+                 weights=weights, **neighbours, approximation=approximation,
                  weight_exponent=None if weights is None else _NUMBERS[exponent],
                  **others)
     return Request(recipe, task, o["run"], meta)
@@ -208,25 +209,31 @@ def _finite(name: str, value: Any) -> float:
 
 
 def _weights(o: dict[str, Any], source: Source
-             ) -> tuple[NDArray[np.float64] | None, int | None, str]:
-    """Returns births, the number of neighbours of the distance to a measure, and the exponent."""
-    weights, neighbours, exponent = o["weights"], o["dtm_neighbors"], o["weight_exponent"]
-    is_dtm = isinstance(weights, str)
+             ) -> tuple[NDArray[np.float64] | None, dict[str, int | None], str]:
+    """Returns births, the options that count neighbours, and the exponent."""
+    weights, exponent = o["weights"], o["weight_exponent"]
+    neighbours = {name: o[name] for name in ("dtm_neighbors", "core_neighbors")}
+    is_computed = isinstance(weights, str)
     if weights is not None and source.births is not None:
         raise UsageError("weights: cannot be combined with diagonal='births', which already gives "
                          "each point a birth; leave out one of them")
-    if is_dtm:
-        _options.choice("weights", weights, ["dtm"])
-        if neighbours is None:
-            raise UsageError("dtm_neighbors: found none, expected the number of neighbours for "
-                             "weights='dtm'")
+    if is_computed:
+        _options.choice("weights", weights, ["dtm", "core"])
+        if neighbours[f"{weights}_neighbors"] is None:
+            raise UsageError(f"{weights}_neighbors: found none, expected the number of neighbours "
+                             f"for weights={weights!r}")
         if not source.space.is_complete:
-            raise UsageError("weights: 'dtm' needs all distances, found only some of them")
-        neighbours = _options.whole("dtm_neighbors", neighbours, 1, max(1, source.space.size))
-    elif neighbours is not None:
-        raise UsageError("dtm_neighbors: does nothing without weights='dtm'")
+            raise UsageError(f"weights: {weights!r} needs all distances, found only some of them")
+    for name, count in neighbours.items():
+        kind = name.partition("_")[0]
+        if count is not None and not (is_computed and kind == weights):
+            raise UsageError(f"{name}: does nothing without weights={kind!r}")
+        if count is not None:
+            least = 1 if kind == "dtm" else 0  # with "dtm", the point itself counts
+            neighbours[name] = _options.whole(name, count, least,
+                                              max(least, source.space.size - 1 + least))
     births = source.births
-    if weights is not None and not is_dtm:
+    if weights is not None and not is_computed:
         births = _arrays.as_values(weights, "weights", source.points, "point")
         if source.ids is not None:
             births = births[source.ids]
@@ -235,8 +242,8 @@ def _weights(o: dict[str, Any], source: Source
             raise UsageError(f"weights: entry {int(np.argmax(bad))}: found "
                              f"{births[np.argmax(bad)]}, expected a finite number, at least 0")
     if exponent is None:
-        return births, neighbours, "1" if is_dtm else "inf"
-    if births is None and not is_dtm:
+        return births, neighbours, "1" if is_computed and weights == "dtm" else "inf"
+    if births is None and not is_computed:
         raise UsageError("weight_exponent: does nothing without weights")
     number = _options.real("weight_exponent", exponent, "1, 2 or inf")
     if number not in _EXPONENTS:

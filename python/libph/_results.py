@@ -96,8 +96,10 @@ def vertex_weights_of(meta: Any) -> str:
         return ""
     if "squared" in meta:
         return "squared radii of balls, given"
-    source = f"dtm {meta['dtm_neighbors']}" if weights == "dtm" else (
-        "diagonal" if meta.get("diagonal") == "births" else "given")
+    if isinstance(weights, str) and f"{weights}_neighbors" in meta:
+        source = f"{weights} {meta[f'{weights}_neighbors']}"
+    else:
+        source = "diagonal" if meta.get("diagonal") == "births" else "given"
     return f"{source}, exponent {meta['weight_exponent']}"
 
 
@@ -109,12 +111,12 @@ def weights_in(words: str) -> dict[str, Any]:
     """
     if words.startswith("squared radii of balls"):
         return {"weights": "given"}
-    match = re.fullmatch(r"(given|file|diagonal|dtm (\d+)), exponent (\S+)", words)
+    match = re.fullmatch(r"(given|file|diagonal|(dtm|core) (\d+)), exponent (\S+)", words)
     if match is None:
         return {}
-    source, neighbors, exponent = match.groups()
-    return {"weights": "dtm" if neighbors else "given",
-            **({"dtm_neighbors": int(neighbors)} if neighbors else {}),
+    source, computed, neighbors, exponent = match.groups()
+    return {"weights": computed or "given",
+            **({f"{computed}_neighbors": int(neighbors)} if computed else {}),
             **({"diagonal": "births"} if source == "diagonal" else {}),
             "weight_exponent": float(exponent)}
 

@@ -26,6 +26,7 @@ REFUSED = [
     (ph.rips, SQUARE, "minkowski_p", [3, 0.5, NAN, "2", None]),
     (ph.rips, SQUARE, "weights", ["DTM", "x", 1, [1, 2]]),
     (ph.rips, SQUARE, "dtm_neighbors", [2]),
+    (ph.rips, SQUARE, "core_neighbors", [2]),
     (ph.rips, SQUARE, "weight_exponent", [1]),
     (ph.rips, SQUARE, "subsample", [0, -1, "x", 1.5]),
     (ph.rips, SQUARE, "subsample_radius", [-1, NAN, INF, "x"]),
@@ -85,6 +86,9 @@ def test_refused_arguments(function, arguments):
 
 @pytest.mark.parametrize("keywords, words", [
     ({"weights": "dtm"}, "dtm_neighbors"),
+    ({"weights": "core"}, "core_neighbors"),
+    ({"weights": "core", "core_neighbors": 4}, "0 to 3"),
+    ({"weights": "core", "core_neighbors": 2, "dtm_neighbors": 2}, "dtm_neighbors: does nothing"),
     ({"weights": "dtm", "dtm_neighbors": 5}, "1 to 4"),
     ({"weights": "dtm", "dtm_neighbors": 2, "subsample": 2}, "subsample: cannot be combined with weights"),
     ({"weights": [0, 0, 0, 0], "approximation": 1}, "approximation: cannot be combined with weights"),

@@ -105,6 +105,7 @@ def test_points(ph_barcode, metric, seed):
      ["--subsample", "20", "--subsample-radius", "0.25"]),
     ({"approximation": 1.5}, ["--approximate", "1.5"]),
     ({"weights": "dtm", "dtm_neighbors": 4}, ["--dtm", "4"]),
+    ({"weights": "core", "core_neighbors": 3}, ["--core", "3"]),
     ({"weights": "dtm", "dtm_neighbors": 3, "weight_exponent": 2},
      ["--dtm", "3", "--weight-exponent", "2"]),
     ({"collapse": True}, ["--collapse", "on"]), ({"collapse": False}, ["--collapse", "off"]),

@@ -51,6 +51,7 @@ TORUS = np.random.default_rng(3).random((4, 5, 6))
     lambda: ph.rips(POINTS, subsample=20), lambda: ph.rips(POINTS, approximation=0.5),
     lambda: ph.rips(POINTS, collapse=True), lambda: ph.rips(POINTS, metric="minkowski", minkowski_p=3),
     lambda: ph.rips(POINTS, weights="dtm", dtm_neighbors=4, weight_exponent=2),
+    lambda: ph.rips(POINTS, weights="core", core_neighbors=3),
     lambda: ph.rips(POINTS, weights=np.ones(len(POINTS))),
     lambda: ph.rips(DISTANCES, metric="precomputed", diagonal="births"),
     lambda: ph.cubical(TORUS, representatives="voxels"),

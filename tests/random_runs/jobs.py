@@ -184,6 +184,11 @@ def rips(rng):
         options += ["--dtm", str(near)]
         tolerance = max(tolerance, 1e-12)
         plain = False
+    elif plain and n > 1 and rng.random() < 0.07 and metric in ("euclidean", "manhattan", "chebyshev"):
+        near = rng.randint(0, n - 1)
+        births = [sorted(row)[near] for row in matrix]  # each row has the point itself
+        options += ["--core", str(near)]
+        plain = False
     joined = oracle.weighted_edge(exponent)
     entry = [[joined(matrix[i][j], births[i], births[j]) for j in chosen] for i in chosen]
     births = [births[i] for i in chosen]

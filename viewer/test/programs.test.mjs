@@ -96,6 +96,7 @@ test("reports of the programs", { timeout: 300_000 }, async (t) => {
       ["waves.pgm", "--superlevel"],
       ["dots.csv", "--complex", "alpha", "--alpha-values", "squared"],
       ["dots.csv", "--dtm", "2"],
+      ["dots.csv", "--core", "2"],
     ]) {
       run(barcode, ...words, "-o", "bars.json", "--report", "bars.html");
       // The last two are counts of the input, not of what is shown.

@@ -65,6 +65,12 @@ void add_rips_options(app::Options& options, Job& job) {
                 [&job](const std::string& text) {
                   job.question.rips.dtm_neighbours = parse_integer("--dtm", text, 1);
                 });
+  options.value({"--core", kOfAllPairs}, "K",
+                "points enter at their core distance, the distance to their K-th nearest other "
+                "point, and edges at the mutual reachability distances of HDBSCAN*",
+                [&job](const std::string& text) {
+                  job.question.rips.core_neighbours = parse_integer("--core", text, 0);
+                });
   options.choice(
       {"--weight-exponent", kOfRips},
       "how the ball of a point born at B has grown at T: to (T^P - B^P)^(1/P) (default inf, "
@@ -78,6 +84,7 @@ void check_rips_arguments(Job& job) {
     sources.push_back("--vertex-weights");
   }
   if (job.question.rips.dtm_neighbours) sources.push_back("--dtm");
+  if (job.question.rips.core_neighbours) sources.push_back("--core");
   if (job.reading.options.diagonal == Diagonal::births) sources.push_back("--diagonal births");
   const auto exclude = [](std::string_view one, std::string_view other) {
     throw Error(ErrorKind::usage,
@@ -85,7 +92,7 @@ void check_rips_arguments(Job& job) {
   };
   if (sources.size() > 1) exclude(sources[0], sources[1]);
   if (sources.empty() && job.question.rips.weight_exponent)
-    throw Error(ErrorKind::usage, "--weight-exponent needs --dtm or --vertex-weights");
+    throw Error(ErrorKind::usage, "--weight-exponent needs --dtm, --core or --vertex-weights");
   if (sources.empty()) return;
   if (job.question.rips.subsample) exclude(sources[0], "--subsample");
   if (job.question.rips.approximation) exclude(sources[0], "--approximate");

@@ -187,6 +187,10 @@ class Builder {
       throw Error(ErrorKind::usage,
                   fmt::format("--dtm: found {}, expected at most the number of points, {}",
                               *options.dtm_neighbours, size));
+    if (options.core_neighbours && size > 0 && *options.core_neighbours >= size)
+      throw Error(ErrorKind::usage,
+                  fmt::format("--core: found {}, expected at most the number of other points, {}",
+                              *options.core_neighbours, size - 1));
     if (!std::same_as<Data, Points> && wanted.engine == Engine::beta_skeleton)
       throw Error(
           ErrorKind::usage,
@@ -239,6 +243,7 @@ class Builder {
                                                                              : "";
     const RipsOptions& rips = job_.question.rips;
     if (rips.dtm_neighbours) source = fmt::format("dtm {}", *rips.dtm_neighbours);
+    if (rips.core_neighbours) source = fmt::format("core {}", *rips.core_neighbours);
     if (source.empty()) return source;
     return fmt::format("{}, exponent {}", source,
                        name_of(rips.weight_exponent.value_or(

@@ -44,11 +44,13 @@ class RipsValues(CellValues):
                             "the data from which the barcode was computed")
         self._exponent = meta.get("weight_exponent", math.inf)
         self._neighbours: int | None = None
+        self._are_core = False
         self._births: Numbers | None = None
         self._has_diagonal = False
         kind = meta.get("weights")
-        if kind == "dtm":
-            self._neighbours = meta["dtm_neighbors"]
+        if kind in ("dtm", "core"):
+            self._neighbours = meta[f"{kind}_neighbors"]
+            self._are_core = kind == "core"
             self._births = np.full(self._count, np.nan)  # computed where they are needed
         elif kind == "given":
             self._births, self._has_diagonal = self._given_births(weights)
@@ -70,9 +72,11 @@ class RipsValues(CellValues):
         if self._neighbours is not None:
             missing = np.unique(points[np.isnan(self._births[points])])
             for part in self._parts(missing):
-                near = np.partition(self._distances.rows(part), self._neighbours - 1,
-                                    axis=1)[:, :self._neighbours]
-                self._births[part] = 2 * root_mean_square(near)
+                rows, k = self._distances.rows(part), self._neighbours  # rows have the point itself
+                if self._are_core:
+                    self._births[part] = np.partition(rows, k, axis=1)[:, k]
+                else:
+                    self._births[part] = 2 * root_mean_square(np.partition(rows, k - 1, axis=1)[:, :k])
         return self._births[points]
 
     def _parts(self, points: Integers) -> Any:
@@ -81,10 +85,14 @@ class RipsValues(CellValues):
 
     def _spread_births(self) -> None:
         """Passes the derivatives with respect to births on to distances, because births with
-        `weights="dtm"` are functions of distances."""
+        `weights="dtm"` or "core" are functions of distances."""
         for part in self._parts(np.flatnonzero(self._of_births)):
             rows = self._distances.rows(part)
-            near = np.argsort(rows, axis=1, kind="stable")[:, :self._neighbours]
+            order = np.argsort(rows, axis=1, kind="stable")
+            if self._are_core:
+                self._distances.add(part, order[:, self._neighbours], self._of_births[part])
+                continue
+            near = order[:, :self._neighbours]
             lengths = np.take_along_axis(rows, near, axis=1)
             births = self._births_of(part)[:, None]
             factors = np.divide(4 * self._of_births[part, None] * lengths, births * near.shape[1],

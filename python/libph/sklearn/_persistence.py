@@ -171,7 +171,8 @@ class RipsPersistence(_Persistence):
     homology_dimensions : int or tuple of int
         The dimensions. With a single number, each sample becomes one diagram; otherwise a list of
         diagrams.
-    metric, minkowski_p, threshold, weights, dtm_neighbors, field, collapse, approximation
+    metric, minkowski_p, threshold, weights, dtm_neighbors, core_neighbors, field, collapse, \
+approximation
         As in `libph.rips`.
     subsample : int, optional
         Number of points to keep of each cloud. Each point is the one farthest from the points
@@ -202,8 +203,8 @@ class RipsPersistence(_Persistence):
 
     def __init__(self, homology_dimensions: Any = (0, 1), metric: Any = "euclidean",
                  minkowski_p: float = 2.0, threshold: float | None = None, weights: Any = None,
-                 dtm_neighbors: int | None = None, field: int = 2, collapse: Any = "auto",
-                 subsample: int | None = None, approximation: float | None = None,
+                 dtm_neighbors: int | None = None, core_neighbors: int | None = None,
+                 field: int = 2, collapse: Any = "auto", subsample: int | None = None, approximation: float | None = None,
                  min_persistence: float = 0.0, output: str = "list", infinity: Any = None,
                  reduced: bool = False, n_jobs: int | None = None) -> None:
         self.homology_dimensions = homology_dimensions
@@ -212,6 +213,7 @@ class RipsPersistence(_Persistence):
         self.threshold = threshold
         self.weights = weights
         self.dtm_neighbors = dtm_neighbors
+        self.core_neighbors = core_neighbors
         self.field = field
         self.collapse = collapse
         self.subsample = subsample
@@ -226,8 +228,8 @@ class RipsPersistence(_Persistence):
         return list_of(X, "distances" if self.metric == "precomputed" else "clouds", 2)
 
     def _options(self) -> dict[str, Any]:
-        return _own(self, ["metric", "minkowski_p", "threshold", "weights", "dtm_neighbors", "field",
-                           "collapse", "subsample", "approximation", "min_persistence"])
+        return _own(self, ["metric", "minkowski_p", "threshold", "weights", "dtm_neighbors",
+                           "core_neighbors", "field", "collapse", "subsample", "approximation", "min_persistence"])
 
 
 class AlphaPersistence(_Persistence):

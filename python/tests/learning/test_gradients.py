@@ -125,6 +125,7 @@ def distances(rng):
 @pytest.mark.parametrize("how", [
     {"weights": True, "weight_exponent": 2}, {"weights": True, "weight_exponent": 1},
     {"weights": "dtm", "dtm_neighbors": 3},
+    {"weights": "core", "core_neighbors": 2},
     {"weights": "dtm", "dtm_neighbors": 3, "weight_exponent": 2}], ids=str)
 def test_a_gradient_is_the_same_at_any_scale(rng, how, scale):
     X, weights = rng.standard_normal((14, 2)), rng.random(14)

@@ -34,7 +34,7 @@ def test_rips(clouds):
 
 @pytest.mark.parametrize("how", [
     {"threshold": 0.4}, {"metric": "manhattan"}, {"metric": "minkowski", "minkowski_p": 3.0},
-    {"weights": "dtm", "dtm_neighbors": 3}, {"field": 3}, {"collapse": False}, {"subsample": 8},
+    {"weights": "dtm", "dtm_neighbors": 3}, {"weights": "core", "core_neighbors": 2}, {"field": 3}, {"collapse": False}, {"subsample": 8},
     {"approximation": 9.0}, {"min_persistence": 0.1}])
 def test_options_of_rips(clouds, how):
     found = RipsPersistence(**how).fit_transform(clouds)

@@ -19,7 +19,8 @@ def finite(dgms):
 
 
 @pytest.mark.parametrize("how", [
-    {}, {"max_dim": 2}, {"metric": "manhattan"}, {"weights": "dtm", "dtm_neighbors": 3}], ids=str)
+    {}, {"max_dim": 2}, {"metric": "manhattan"}, {"weights": "dtm", "dtm_neighbors": 3},
+    {"weights": "core", "core_neighbors": 2}], ids=str)
 def test_gradcheck_of_points(how):
     X = torch.rand(16, 3, dtype=torch.float64, generator=torch.Generator().manual_seed(1),
                    requires_grad=True)

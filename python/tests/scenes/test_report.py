@@ -78,6 +78,7 @@ SOLID = np.random.default_rng(4).normal(size=(40, 5))
     (POINTS, {"metric": "minkowski", "minkowski_p": 3}, ["--metric", "minkowski:3"]),
     (POINTS, {"threshold": 0.7}, ["--threshold", 0.7]),
     (POINTS, {"weights": "dtm", "dtm_neighbors": 4}, ["--dtm", 4]),
+    (POINTS, {"weights": "core", "core_neighbors": 4}, ["--core", 4]),
     (POINTS, {"weights": "dtm", "dtm_neighbors": 3, "weight_exponent": 2},
      ["--dtm", 3, "--weight-exponent", 2]),
     (POINTS, {"subsample": 20}, ["--subsample", 20]),

@@ -297,6 +297,19 @@ class Options(ProgramTest):
         for metric in ("manhattan", "hamming"):
             self.expect(0, "line.txt", "--dtm", "2", "--metric", metric, "--check")
 
+    def test_core(self):
+        self.write("line.txt", "0\n1\n3\n10\n")
+        run = self.expect(0, "line.txt", "--core", "2", "--output-format", "json", "--check")
+        result = json.loads(run.stdout)
+        self.assertEqual(result["vertex_weights"], "core 2, exponent inf")
+        # The core distances are 3, 2, 3 and 9.
+        found = [(b["birth"], b["death"]) for b in result["bars"] if b["dim"] == 0]
+        self.assertEqual(found, [(2, None)])
+        run = self.expect(0, "line.txt", "--core", "1", "--max-dim", "0", "--output-format", "json",
+                          "--check")
+        found = [(b["birth"], b["death"]) for b in json.loads(run.stdout)["bars"]]
+        self.assertEqual(found, [(1, None)])
+
     def test_subsample(self):
         self.write("line.txt", "0\n1\n2\n10\n")
         run = self.expect(0, "line.txt", "--subsample", "2", "-o", "out.json")
@@ -330,7 +343,8 @@ class Options(ProgramTest):
             self.assertRegex(run.stderr, "device gpu: (not built in: it needs CUDA|CUDA says)")
         for options in ([], ["--max-dim", "0", "--metric", "manhattan"],
                         ["--max-dim", "0", "--engine", "standard"],
-                        ["--max-dim", "0", "--dtm", "2"]):
+                        ["--max-dim", "0", "--dtm", "2"],
+                        ["--max-dim", "0", "--core", "2"]):
             run = self.expect(64, "line.txt", "--device", "gpu", *options)
             self.assertIn("expected components (H0) of points with Euclidean distances", run.stderr)
         self.write("matrix.txt", "0 1\n1 0\n")

@@ -72,7 +72,7 @@ class Stored(ProgramTest):
         def members(name):
             return json.loads(self.read(name))
         for options in (["--field", "3", "--max-dim", "2", "--threshold", "1.5", "--dtm", "2"],
-                        ["--subsample", "3", "--representatives", "cocycles"],
+                        ["--core", "1"], ["--subsample", "3", "--representatives", "cocycles"],
                         ["--approximate", "0.5"],
                         ["--complex", "cubical", "--voxel", "0.5"],
                         ["--complex", "cubical", "--voxel", "0.5", "--representatives", "voxels"],

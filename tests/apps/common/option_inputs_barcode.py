@@ -66,6 +66,7 @@ def rows(Row):
         "--approximate": Row("--approximate", "0.5", sign="too late by a factor", unfit=POINTS + "|no approximation"),
         "--vertex-weights": Row("--vertex-weights", "weights.txt", unfit="weights.txt|" + POINTS),
         "--dtm": Row("--dtm", "3", unfit=POINTS),
+        "--core": Row("--core", "3", unfit=POINTS),
         "--weight-exponent": Row("--weight-exponent", "2"),
         "--weights": Row("--weights", "weights.txt", unfit="weights.txt|" + POINTS),
         "--period": Row("--period", "3"),

@@ -43,6 +43,7 @@ def entries():
             ("a subsample", ("--subsample", "2"), "--subsample"),
             ("weights as of Rips complexes", ("--vertex-weights", "points.txt"), "--vertex-weights"),
             ("the measure of Rips complexes", ("--dtm", "2"), "--dtm"),
+            ("core distances", ("--core", "1"), "--core"),
             ("an engine of Rips complexes", ("--engine", "edge-links"), "engine"),
             ("an axis of an image", ("--periodic", "0"), "--periodic"),
             ("a shape of a periodic space", ("--period", "2", "--alpha-shape", "1=x.ply"), "--alpha-shape")):

@@ -70,8 +70,12 @@ BARCODE = [
     *((49, ["--approximate", epsilon], "--approximate") for epsilon in ("-1", "0", "inf", "x")),
     (49, ["--dtm", "0"], "--dtm"),
     (49, ["--dtm", "5"], "at most the number of points, 4"),
+    (49, ["--core", "-1"], "--core"),
+    (49, ["--core", "4"], "at most the number of other points, 3"),
+    (49, ["--core", "2", "--dtm", "2"], "cannot be combined with --core"),
+    (49, ["--core", "2", "--subsample", "3"], "cannot be combined with --subsample"),
     (49, ["--weight-exponent", "3"], "--weight-exponent"),
-    (49, ["--weight-exponent", "2"], "needs --dtm or --vertex-weights"),
+    (49, ["--weight-exponent", "2"], "needs --dtm, --core or --vertex-weights"),
     (49, ["--diagonal", "birth"], "did you mean 'births'"),
     (49, ["--diagonal", "births"], "--format distance"),
     (49, ["--vertex-weights", ""], "--vertex-weights"),
@@ -117,7 +121,7 @@ BARCODE_FILES = [
     (49, "edge.phat", b"0\n0\n1 0 1\n", ["--collapse", "on"], "--collapse"),
     *((49, "image.pgm", b"P2\n2 1\n9\n1 2\n", options, "points and distance")
       for options in (["--collapse", "on"], ["--subsample", "2"], ["--approximate", "1"],
-                      ["--dtm", "2"], ["--vertex-weights", "image.pgm"])),
+                      ["--dtm", "2"], ["--core", "1"], ["--vertex-weights", "image.pgm"])),
     *((49, "image.pgm", b"P2\n2 1\n9\n1 2\n", options, "found an image")
       for options in (["--diagonal", "births"], ["--diagonal", "zero"], ["--from-correlation"],
                       ["--symmetrise", "max"], ["--metric", "euclidean"], ["--collapse", "auto"])),
@@ -126,7 +130,7 @@ BARCODE_FILES = [
     (49, "i.raw", b"1234", ["--raw-shape", "2,2", "--raw-big-endian"], "--raw-big-endian"),
     *((49, "sparse.txt", b"0 1 1\n", ["--format", "sparse", *options], "found some distances only")
       for options in (["--subsample", "2"], ["--approximate", "1"], ["--dtm", "2"],
-                      ["--diagonal", "births"])),
+                      ["--core", "1"], ["--diagonal", "births"])),
     (49, "lower.txt", b"1\n", ["--format", "lower-distance", "--diagonal", "births"],
      "full distance matrices"),
     (49, "full.txt", b"1 1\n1 1\n",
@@ -144,7 +148,7 @@ WEIGHTS = [
     ("nothing", b"", "weights.txt"),
 ]
 
-FINE = [["--subsample", "4"], ["--subsample-radius", "0"], ["--dtm", "1"], 
+FINE = [["--subsample", "4"], ["--subsample-radius", "0"], ["--dtm", "1"], ["--core", "0"],
         ["--collapse", "auto"], ["--collapse", "on"], ["--collapse", "off"], ["--representatives", "none"],
         ["--threads", "1"], ["--threads=2"], ["--memory-limit", "1GiB"], ["--memory-limit", "1e9"],
         ["--memory-limit", "500MB"], ["--threshold", "inf"], ["--progress", "none"],
