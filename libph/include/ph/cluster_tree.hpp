@@ -15,6 +15,7 @@ namespace ph {
 class Rips;
 struct FlagEdge;
 struct MergeTree;
+struct WeightedEdge;
 
 /// The measure of the life of a cluster: a function of the value that falls as the value grows. It
 /// is 0 at the end of the filtration, and the same for a value of infinity.
@@ -62,9 +63,9 @@ struct Clusters {
   /// The cluster of each point, 0, 1, … in the order of the first point of each cluster; -1 is
   /// noise.
   std::vector<Index> labels;
-  /// For each point, the quotient of its own life in its cluster and the life of the last point of
-  /// the cluster, from 0 to 1, on the scale of the tree: for ClusterScale::inverse, least / value,
-  /// where `value` is the value at which the point leaves. 0 for noise.
+  /// For each point, the time until it leaves its cluster as a share of the time until the cluster
+  /// splits or ends, at most 1, on the scale of the tree: for ClusterScale::inverse, bottom /
+  /// value, where `value` is the value at which the point leaves. 0 for noise.
   std::vector<double> probabilities;
   /// By label: the position of the cluster in ClusterTree::clusters.
   std::vector<std::uint32_t> chosen;
@@ -109,6 +110,13 @@ class ClusterTree {
   /// The clusters of any merge tree: of an image, a graph or points. A vertex that never enters is
   /// noise.
   ClusterTree(const MergeTree& tree, Index min_size, ClusterScale scale = ClusterScale::inverse,
+              const RunContext& context = default_context());
+
+  /// The clusters of a graph, for example of a spanning forest that was stored.
+  /// @param edges in any order. @throws Error (usage) also on an edge whose ends are not points, or
+  /// whose value is NaN.
+  ClusterTree(Index points, std::span<const WeightedEdge> edges, Index min_size,
+              ClusterScale scale = ClusterScale::inverse,
               const RunContext& context = default_context());
 
   /// The same tree with another least size, in time O(n) and without the edges.

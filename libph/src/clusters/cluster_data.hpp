@@ -26,14 +26,13 @@ class Lifetime {
     }
     return 1 / value;
   }
-  /// The quotient of the lives of a point and of the last point of its cluster, at most 1.
-  /// @param least the value of the last point, at most `value` unless the point leaves later.
-  double share(double least, double value) const {
-    if (value <= least) return 1;
+  /// The quotient of the lives until `value` and until `end`, at most 1.
+  double share(double end, double value) const {
+    if (value <= end) return 1;
     if (!(value < kInfinity)) return 0;
-    if (scale_ == ClusterScale::inverse) return least / value;
-    const double of_last = (*this)(least);
-    return of_last < kInfinity ? (*this)(value) / of_last : 0;
+    if (scale_ == ClusterScale::inverse) return end / value;
+    const double until_end = (*this)(end);
+    return until_end < kInfinity ? (*this)(value) / until_end : 0;
   }
 
  private:

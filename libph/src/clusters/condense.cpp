@@ -15,6 +15,7 @@
 #include "ph/error.hpp"
 #include "ph/merge_tree.hpp"
 #include "ph/rips.hpp"
+#include "ph/sparse_distances.hpp"
 
 namespace ph {
 namespace {
@@ -256,6 +257,25 @@ ClusterTree::ClusterTree(const Rips& rips, Index min_size, const RunContext& con
   check(rips.size(), min_size);
   const RipsGraph& forest = forest_of(rips, context);
   data_ = condensed(forest.edges(), forest.size(), min_size, ClusterScale::inverse, context);
+  finest_ = data_;
+}
+
+ClusterTree::ClusterTree(Index points, std::span<const WeightedEdge> edges, Index min_size,
+                         ClusterScale scale, const RunContext& context) {
+  check(points, min_size);
+  FlagEdges sorted(&context.memory);
+  sorted.reserve(edges.size());
+  for (const WeightedEdge& e : edges) {
+    if (std::min(e.u, e.v) < 0 || std::max(e.u, e.v) >= points || std::isnan(e.value))
+      throw Error(
+          ErrorKind::usage,
+          fmt::format("clusters: found the edge ({}, {}) of value {}, expected two of the {} "
+                      "points and a number",
+                      e.u, e.v, e.value, points));
+    sorted.push_back({e.value, static_cast<std::uint32_t>(e.u), static_cast<std::uint32_t>(e.v)});
+  }
+  std::ranges::sort(sorted, precedes);
+  data_ = condensed(sorted, points, min_size, scale, context);
   finest_ = data_;
 }
 

@@ -112,7 +112,7 @@ Clusters ClusterTree::select(const ClusterOptions& options) const {
       result.chosen.push_back(static_cast<std::uint32_t>(c));
     }
     result.labels[p] = number;
-    result.probabilities[p] = data.life.share(tree[static_cast<std::size_t>(c)].least, value);
+    result.probabilities[p] = data.life.share(tree[static_cast<std::size_t>(c)].bottom, value);
   }
   return result;
 }

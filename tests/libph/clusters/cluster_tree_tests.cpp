@@ -12,6 +12,7 @@
 #include "ph/distance_to_measure.hpp"
 #include "ph/merge_tree.hpp"
 #include "ph/rips.hpp"
+#include "ph/sparse_distances.hpp"
 #include "tests/support/expect_error.hpp"
 #include "tests/support/for_each_seed.hpp"
 #include "tests/support/points.hpp"
@@ -252,6 +253,23 @@ TEST(ClusterTrees, OfAMergeTreeAreThoseOfItsFiltration) {
   });
 }
 
+// Edges that are not in a spanning forest change nothing.
+TEST(ClusterTrees, OfAGraphAreThoseOfItsForest) {
+  for_each_seed(300, [](Generator& random, bool ties, std::int64_t) {
+    const Sample sample = sample_of(random, ties, 30);
+    const Values values(sample.points, sample.k);
+    std::vector<WeightedEdge> edges;
+    for (Index i = 0; i < values.size(); ++i)
+      for (Index j = 0; j < i; ++j) edges.push_back({i, j, values.at(i, j)});
+    const ClusterTree tree(values.size(), edges, sample.min_size);
+    EXPECT_EQ(Comparison(tree).compare(root_of(values, sample.min_size)), tree.clusters().size());
+  });
+  const std::vector<WeightedEdge> bad{{0, 2, 1}}, nan{{0, 1, std::nan("")}};
+  for (const auto& edges : {bad, nan})
+    expect_error(ErrorKind::usage, "expected two of the 2 points",
+                 [&] { ClusterTree(2, edges, 2); });
+}
+
 /// The same tree in all its numbers, apart from the order of clusters.
 void expect_equal(const ClusterTree& a, const ClusterTree& b) {
   EXPECT_EQ(a.min_size(), b.min_size());
@@ -347,8 +365,8 @@ TEST(ChosenClusters, AreTheHeaviestOnes) {
       } else if (value == 0) {
         EXPECT_EQ(share, 1);
       } else {
-        const double least = tree.clusters()[clusters.chosen[std::size_t(label)]].least;
-        EXPECT_EQ(share, std::min(1.0, least == value ? 1.0 : least / value));
+        const double bottom = tree.clusters()[clusters.chosen[std::size_t(label)]].bottom;
+        EXPECT_EQ(share, bottom == value ? 1.0 : std::min(1.0, bottom / value));
       }
     }
   });
