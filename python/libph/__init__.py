@@ -44,6 +44,7 @@ from . import _imports
 _NAMES = {
     "_barcodes": "Bar Barcode Chain Loop",
     "_batch": "batch",
+    "_clusters": "ClusterTree Clusters cluster_tree",
     "_compute": "alpha boundary cubical filtered lower_star rips",
     "_distances": "Barycentre Matching barycentre bottleneck bottleneck_matching "
                   "diagram_distances sliced_wasserstein wasserstein wasserstein_matching",
@@ -53,7 +54,8 @@ _NAMES = {
     "_files": "Boundary Mesh Simplices read read_barcode",
     "_images": "SpatialImage write_nifti",
     "_parts": "CloudPart ImageLoops ImagePart cloud_part image_part join_parts",
-    "_points": "Subsample collapse delay_embedding distance_to_measure farthest_points point_image",
+    "_points": "Subsample collapse core_distances delay_embedding distance_to_measure farthest_points "
+               "point_image",
     "_report": "Report report",
     "_requests": "PointImage",
     "_run": "limits",

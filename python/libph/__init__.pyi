@@ -2,6 +2,7 @@
 from . import gradients
 from ._barcodes import Bar, Barcode, Chain, Loop
 from ._batch import batch
+from ._clusters import Clusters, ClusterTree, cluster_tree
 from ._compute import alpha, boundary, cubical, filtered, lower_star, rips
 from ._core import version as __version__
 from ._distances import (Barycentre, Matching, barycentre, bottleneck, bottleneck_matching,
@@ -12,8 +13,8 @@ from ._estimate import Estimate, estimate
 from ._files import Boundary, Mesh, Simplices, read, read_barcode
 from ._images import SpatialImage, write_nifti
 from ._parts import CloudPart, ImageLoops, ImagePart, cloud_part, image_part, join_parts
-from ._points import (Subsample, collapse, delay_embedding, distance_to_measure, farthest_points,
-                      point_image)
+from ._points import (Subsample, collapse, core_distances, delay_embedding, distance_to_measure,
+                      farthest_points, point_image)
 from ._report import Report, report
 from ._requests import PointImage
 from ._run import limits
@@ -29,14 +30,15 @@ from ._vectors._kernels import diagram_kernels
 
 __all__ = [
     "Band", "Bar", "Barcode", "Barycentre", "Boundary", "Cancelled", "Chain", "CloudPart",
+    "ClusterTree", "Clusters",
     "DataError", "Error", "Estimate", "ImageLoops", "ImagePart", "InternalError", "LabelTracker",
     "Loop", "Matching", "MemoryLimitError", "MergeTree", "Mesh", "MissingInputError", "NotBuiltIn",
     "Objects", "OutputError", "PermutationTest", "PiecewiseLinear", "PointImage", "Report",
     "SceneSurface", "Segment", "Segmentation", "Simplices", "SpatialImage", "StepFunction",
     "Subsample", "Surface", "Timeout", "Tracked", "UsageError", "Voxels", "__version__",
     "alpha", "alpha_shape", "barycentre", "batch",
-    "bottleneck", "bottleneck_matching", "boundary", "cloud_part", "collapse", "confidence_band",
-    "confidence_radius", "cubical", "delay_embedding", "diagram_distances", "diagram_kernels",
+    "bottleneck", "bottleneck_matching", "boundary", "cloud_part", "cluster_tree", "collapse", "confidence_band",
+    "confidence_radius", "core_distances", "cubical", "delay_embedding", "diagram_distances", "diagram_kernels",
     "distance_to_measure",
     "estimate", "euler_curve", "farthest_points", "filtered", "gradients", "image_part",
     "join_parts", "limits", "lower_star",

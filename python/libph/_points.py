@@ -219,6 +219,39 @@ def distance_to_measure(X: Any, k: int, *, metric: Any = "euclidean", minkowski_
     return np.asarray(_run.run(_core.distance_to_measure, source, neighbours, options=dict(run)))
 
 
+def core_distances(X: Any, k: int, *, metric: Any = "euclidean", minkowski_p: float = 2.0,
+                   **run: Unpack[RunOptions]) -> NDArray[np.float64]:
+    """For each point, the distance to its k-th nearest other point.
+
+    Copies of the point count. HDBSCAN* (Campello, Moulavi, Sander 2013) counts the point itself:
+    its m_pts, and `min_samples` of scikit-learn, are k + 1.
+
+    Parameters
+    ----------
+    X : array_like
+        As in `rips`; all distances must be known.
+    k : int
+        Number of neighbours, less than the number of points. With 0, all core distances are 0.
+    metric, minkowski_p
+        As in `rips`.
+    **run
+        `threads`, `memory_limit`, `progress`, `timeout`, `stop`; see `libph`.
+
+    Returns
+    -------
+    ndarray
+
+    Examples
+    --------
+    >>> ph.core_distances([[0], [1], [5]], 1)
+    array([1., 1., 4.])
+    """
+    _run.check_names("core_distances", run, core_distances)
+    source = _complete(X, metric, minkowski_p)
+    neighbours = _options.whole("k", k, 0, max(0, source.size - 1))
+    return np.asarray(_run.run(_core.core_distances, source, neighbours, options=dict(run)))
+
+
 def root_mean_square(distances: NDArray[np.float64]) -> NDArray[np.float64]:
     """The root mean square of each row, without a square that overflows or vanishes."""
     largest = distances.max(axis=1, keepdims=True)

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import functools
-from typing import Any
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,8 +13,11 @@ from . import _core, _options
 from ._errors import UsageError
 from ._estimate import request_of
 
+if TYPE_CHECKING:
+    from ._clusters import ClusterTree
+
 _RIPS_OPTIONS = ("threshold", "metric", "minkowski_p", "weights", "dtm_neighbors",
-                 "weight_exponent", "nan", "diagonal", "symmetrise")
+                 "core_neighbors", "weight_exponent", "nan", "diagonal", "symmetrise")
 _CUBICAL_OPTIONS = ("threshold", "construction", "superlevel", "periodic", "nan")
 _ALPHA_OPTIONS = ("threshold", "values", "squared", "weights", "nan")
 _RUN_OPTIONS = ("threads", "memory_limit", "progress", "timeout", "stop")
@@ -91,10 +95,29 @@ class MergeTree:
         return np.asarray(self._tree.basins(_options.real("min_persistence", min_persistence),
                                             _options.whole("min_size", min_size, 1)))
 
+    def clusters(self, min_size: int = 5, *, scale: str | None = None) -> ClusterTree:
+        """The cluster tree: the components with at least this many vertices, and how they split.
+
+        `scale` is as in `cluster_tree`; by default, it is "linear" for an image.
+        """
+        from ._clusters import of_merge_tree
+        default = "inverse" if self.shape is None else "linear"
+        return of_merge_tree(self, min_size, scale or default)
+
 
 def _restored(births: NDArray[np.float64], values: NDArray[np.float64], ends: NDArray[np.int64],
               sizes: NDArray[np.int64], shape: tuple[int, ...] | None) -> MergeTree:
     return MergeTree(_core.restored_tree(births, values, ends.ravel(), sizes.ravel()), shape)
+
+
+def check_names(what: str, complex_name: str, options: Iterable[str]) -> None:
+    """Refuses options of `rips`, `cubical` and `alpha` that do nothing for H0 as a tree."""
+    kind = {"rips": _RIPS_OPTIONS, "cubical": _CUBICAL_OPTIONS}
+    allowed = kind.get(complex_name, _ALPHA_OPTIONS) + _RUN_OPTIONS
+    for name in options:
+        if name not in allowed:
+            raise UsageError(f"{name}: does nothing for {what} of {complex_name}, "
+                             f"expected {', '.join(allowed)}")
 
 
 def merge_tree(data: Any, *, complex: str | None = None, **options: Any) -> MergeTree:
@@ -109,7 +132,7 @@ def merge_tree(data: Any, *, complex: str | None = None, **options: Any) -> Merg
         rips.
     **options
         As in `rips`: `threshold`, `metric`, `minkowski_p`, `weights`, `dtm_neighbors`,
-        `weight_exponent`, `nan`, `diagonal`, `symmetrise`. As in `cubical`: `threshold`,
+        `core_neighbors`, `weight_exponent`, `nan`, `diagonal`, `symmetrise`. As in `cubical`: `threshold`,
         `construction`, `superlevel`, `periodic`, `nan`. As in `alpha`: `threshold`, `values`,
         `squared`, `weights`, `nan`. Also `threads`, `memory_limit`, `progress`, `timeout`, `stop`.
         With ``nan="drop"``, points that are left out never enter.
@@ -129,12 +152,7 @@ def merge_tree(data: Any, *, complex: str | None = None, **options: Any) -> Merg
            [4., 5., 9., 4.]])
     """
     request = request_of(data, complex, options)
-    kind = {"rips": _RIPS_OPTIONS, "cubical": _CUBICAL_OPTIONS}
-    allowed = kind.get(request.meta["complex"], _ALPHA_OPTIONS) + _RUN_OPTIONS
-    for name in options:
-        if name not in allowed:
-            raise UsageError(f"{name}: does nothing for a merge tree of {request.meta['complex']}, "
-                             f"expected {', '.join(allowed)}")
+    check_names("a merge tree", request.meta["complex"], options)
     points = request.meta.get("points", 0)  # including the points that nan="drop" leaves out
     tree = request._replace(task=None).run(functools.partial(_core.merge_tree, size=points))
     shape = request.meta.get("shape")

@@ -25,6 +25,7 @@ PYBIND11_MODULE(_core, m) {
   bind_kernels(m);
   bind_euler_curves(m);
   bind_merge_trees(m);
+  bind_clusters(m);
   bind_files(m);
   bind_clouds(m);
   bind_segmentations(m);

@@ -5,7 +5,7 @@ For lists of point clouds, distances or images: `RipsPersistence`, `AlphaPersist
 `CubicalPersistence`. For lists of diagrams: `Statistics`, `PersistenceImage`, `Landscape`,
 `Silhouette`, `BettiCurve`, `LifeEntropy`, `Entropy`, `Lengths`, `Atol`, `DiagramDistances`,
 `DiagramKernels`. For lists of images, without their bars: `EulerCurve`. For one cloud, whose rows
-are samples: `PersistenceClustering`, `DistanceToMeasure`, `FarthestPoints`.
+are samples: `HDBSCAN`, `PersistenceClustering`, `DistanceToMeasure`, `FarthestPoints`.
 
 >>> import libph.sklearn
 >>> from sklearn.pipeline import make_pipeline
@@ -24,13 +24,15 @@ from ._clustering import PersistenceClustering
 from ._curves import BettiCurve, Landscape, LifeEntropy, Silhouette
 from ._distances import DiagramDistances, DiagramKernels
 from ._euler import EulerCurve
+from ._hdbscan import HDBSCAN
 from ._images import PersistenceImage
 from ._numbers import Entropy, Lengths, Statistics
 from ._persistence import AlphaPersistence, CubicalPersistence, RipsPersistence
 from ._points import DistanceToMeasure, FarthestPoints
 
 __all__ = ["AlphaPersistence", "Atol", "BettiCurve", "CubicalPersistence", "DiagramDistances",
-           "DiagramKernels", "DistanceToMeasure", "Entropy", "EulerCurve", "FarthestPoints", "Landscape", "Lengths",
+           "DiagramKernels", "DistanceToMeasure", "Entropy", "EulerCurve", "FarthestPoints", "HDBSCAN",
+           "Landscape", "Lengths",
            "LifeEntropy", "PersistenceClustering", "PersistenceImage", "RipsPersistence",
            "Silhouette", "Statistics"]
 

@@ -14,15 +14,20 @@ from .._errors import UsageError
 
 try:
     from sklearn.utils.validation import validate_data as _validate_data  # 1.6
+    _FINITE = "ensure_all_finite"
 except ImportError:
     def _validate_data(estimator: Any, X: Any, **how: Any) -> Any:
         return estimator._validate_data(X, **how)
+    _FINITE = "force_all_finite"
 
 
-def table_of(estimator: BaseEstimator, X: Any, reset: bool) -> NDArray[np.float64]:
-    """The rows of one cloud; `reset` is True for the cloud to which the estimator is fitted."""
-    table: NDArray[np.float64] = _validate_data(estimator, X, dtype=np.float64, reset=reset)
-    return table
+def table_of(estimator: BaseEstimator, X: Any, reset: bool, *, are_finite: bool = True,
+             may_be_sparse: bool = False) -> Any:
+    """The rows of one cloud; `reset` is True for the cloud to which the estimator is fitted.
+    `are_finite` is False if NaN and infinite numbers are allowed."""
+    return _validate_data(estimator, X, dtype=np.float64, reset=reset,
+                          accept_sparse=["csr"] if may_be_sparse else False,
+                          **{_FINITE: are_finite})
 
 
 class MakesTables:

@@ -51,6 +51,7 @@ void bind_vectors(py::module_& m);
 void bind_kernels(py::module_& m);
 void bind_euler_curves(py::module_& m);
 void bind_merge_trees(py::module_& m);
+void bind_clusters(py::module_& m);
 void bind_files(py::module_& m);
 void bind_clouds(py::module_& m);
 void bind_segmentations(py::module_& m);

@@ -106,6 +106,18 @@ Block measure_distances(const MetricSpace& space, Index neighbours, const RunOpt
   }));
 }
 
+Block measure_core_distances(const MetricSpace& space, Index neighbours,
+                             const RunOptions& options) {
+  return Block::of(run(options, false, [&](const RunContext& context) {
+    return space.visit(context, [&]<class Data>(const Data& data) -> std::vector<double> {
+      if constexpr (std::same_as<Data, SparseDistances>)
+        fail_incomplete();
+      else
+        return core_distances(data, neighbours, context);
+    });
+  }));
+}
+
 py::tuple image_of_points(const py::buffer& points, double voxel, VoxelValue value, Index margin,
                           const RunOptions& options) {
   const py::buffer_info info = points.request();
@@ -146,6 +158,8 @@ void bind_metric_spaces(py::module_& m) {
   m.def("farthest_points", &farthest_points, py::arg("space"), py::arg("points"), py::arg("radius"),
         py::arg("run"));
   m.def("distance_to_measure", &measure_distances, py::arg("space"), py::arg("neighbours"),
+        py::arg("run"));
+  m.def("core_distances", &measure_core_distances, py::arg("space"), py::arg("neighbours"),
         py::arg("run"));
   m.def("point_image", &image_of_points, py::arg("points"), py::arg("voxel"), py::arg("value"),
         py::arg("margin"), py::arg("run"));

@@ -33,6 +33,10 @@ inline GreedyPermutation greedy_permutation(const PointSet& set, const GreedyLim
                                             const RunContext& context) {
   return ph::greedy_permutation(set.points, limits, set.distance, set.p, context);
 }
+inline std::vector<double> core_distances(const PointSet& set, Index neighbours,
+                                          const RunContext& context) {
+  return ph::core_distances(set.points, neighbours, set.distance, set.p, context);
+}
 inline std::vector<double> distance_to_measure(const PointSet& set, Index neighbours,
                                                const RunContext& context) {
   return ph::distance_to_measure(set.points, neighbours, set.distance, set.p, context);

@@ -1,0 +1,347 @@
+# SPDX-License-Identifier: MIT
+"""Clustering by density without a scale and without the number of clusters (HDBSCAN*)."""
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import scipy.sparse
+from joblib import effective_n_jobs
+from numpy.typing import NDArray
+from sklearn.base import BaseEstimator, ClusterMixin
+from sklearn.metrics import pairwise_distances
+
+from .. import _options
+from .._clusters import Clusters, ClusterTree, cluster_tree, of_forest
+from .._errors import DataError, UsageError
+from .._points import core_distances
+from .._trees import MergeTree
+from ._base import table_of
+
+_Integers = NDArray[np.int64]
+_Numbers = NDArray[np.float64]
+
+INFINITE, MISSING = -2, -3  # labels of rows with infinite numbers and with NaN
+_METRICS = {"l1": "manhattan", "cityblock": "manhattan", "l2": "euclidean",
+            "infinity": "chebyshev", "p": "minkowski"}
+
+
+class HDBSCAN(ClusterMixin, BaseEstimator):
+    """Clusters are components of a density that last long, at any scale; other points are noise.
+
+    This is HDBSCAN* (Campello, Moulavi, Sander, Density-based clustering based on hierarchical
+    density estimates, 2013), which is H0 of a Rips filtration with births: a point enters at its
+    core distance, and an edge enters at the largest of its length and the core distances of its
+    ends. Components with at least `min_cluster_size` points are clusters.
+
+    Edges of equal value are removed at once, as the definition says. The labels therefore do not
+    depend on the order of the rows. Labels of other packages do, because they remove such edges one
+    by one; where no two values are equal, their labels are the same.
+
+    Parameters
+    ----------
+    min_cluster_size : int
+        The least number of points in a cluster, at least 2.
+    min_samples : int, optional
+        The core distance of a point is the distance to its nearest point of this rank, where the
+        point itself has rank 1. With 1, all core distances are 0, and the hierarchy is single
+        linkage. Default: `min_cluster_size`.
+    cluster_selection_epsilon : float
+        A cluster that joins others at a distance below this is replaced by the first cluster around
+        it that does not.
+    max_cluster_size : int, optional
+        With "eom", larger clusters are not chosen.
+    metric : str or callable
+        As in `libph.rips`; "precomputed": X is a matrix of distances, dense or sparse. A pair that
+        a sparse matrix does not store is never joined.
+    metric_params : dict, optional
+        ``{"p": p}`` for ``metric="minkowski"``.
+    alpha : float
+        Distances are divided by this number before they are compared with core distances.
+    algorithm, leaf_size, copy
+        Accepted for the sake of scikit-learn's interface. They change nothing: the forest is exact
+        whatever the algorithm, and X is never changed.
+    n_jobs : int, optional
+        Number of threads. Default: one.
+    cluster_selection_method : {"eom", "leaf"}
+        "eom": the clusters with the largest total stability. "leaf": the clusters without clusters
+        inside them.
+    allow_single_cluster : bool
+        If True, all points may form one cluster.
+    store_centers : {None, "centroid", "medoid", "both"}
+        Whether to compute `centroids_` or `medoids_`.
+
+    Attributes
+    ----------
+    labels_ : ndarray
+        The cluster of each row, 0, 1, … in the order of the first rows of the clusters. -1 is
+        noise, -2 a row with an infinite number, -3 a row with NaN.
+    probabilities_ : ndarray
+        How strongly each row belongs to its cluster, from 0 to 1; NaN for rows with NaN.
+    outlier_scores_ : ndarray
+        The GLOSH scores, from 0 to 1; NaN for rows with NaN or infinite numbers.
+    cluster_persistence_ : ndarray
+        For each cluster, its stability as a share of the largest stability that a cluster of its
+        size could have in this tree, from 0 to 1.
+    cluster_tree_ : ClusterTree
+        The hierarchy of clusters.
+    centroids_, medoids_ : ndarray
+        One row per cluster, if `store_centers` says so: the mean weighted with probabilities, and
+        the row with the least sum of weighted distances to the other rows of the cluster.
+
+    Examples
+    --------
+    >>> X = [[0], [1], [2], [3], [20], [21], [22], [23], [50]]
+    >>> ph.sklearn.HDBSCAN(min_cluster_size=3, min_samples=2).fit_predict(X)
+    array([ 0,  0,  0,  0,  1,  1,  1,  1, -1])
+    """
+
+    def __init__(self, min_cluster_size: int = 5, min_samples: int | None = None,
+                 cluster_selection_epsilon: float = 0.0, max_cluster_size: int | None = None,
+                 metric: Any = "euclidean", metric_params: dict[str, Any] | None = None,
+                 alpha: float = 1.0, algorithm: str = "auto", leaf_size: int = 40,
+                 n_jobs: int | None = None, cluster_selection_method: str = "eom",
+                 allow_single_cluster: bool = False, store_centers: str | None = None,
+                 copy: bool = False) -> None:
+        self.min_cluster_size = min_cluster_size
+        self.min_samples = min_samples
+        self.cluster_selection_epsilon = cluster_selection_epsilon
+        self.max_cluster_size = max_cluster_size
+        self.metric = metric
+        self.metric_params = metric_params
+        self.alpha = alpha
+        self.algorithm = algorithm
+        self.leaf_size = leaf_size
+        self.n_jobs = n_jobs
+        self.cluster_selection_method = cluster_selection_method
+        self.allow_single_cluster = allow_single_cluster
+        self.store_centers = store_centers
+        self.copy = copy
+
+    def fit(self, X: Any, y: Any = None) -> HDBSCAN:
+        """Clusters the rows.
+
+        Parameters
+        ----------
+        X : array_like or sparse matrix
+            Points, one per row. With ``metric="precomputed"``, a square matrix of distances.
+        y : None
+            Not used; present because pipelines pass it.
+
+        Returns
+        -------
+        self
+        """
+        min_size = _options.whole("min_cluster_size", self.min_cluster_size, 2)
+        _options.choice("store_centers", self.store_centers, [None, "centroid", "medoid", "both"])
+        is_precomputed = isinstance(self.metric, str) and self.metric == "precomputed"
+        data = table_of(self, X, reset=True, are_finite=False, may_be_sparse=is_precomputed)
+        if is_precomputed:
+            self._marks = _check_distances(data)
+        else:
+            self._marks = np.where(np.isnan(data).any(axis=1), MISSING,
+                                   np.where(np.isinf(data).any(axis=1), INFINITE, 0))
+        kept = np.flatnonzero(self._marks == 0)
+        self.cluster_tree_ = self._tree_of(data, kept, min_size)
+        chosen = self.cluster_tree_.select(**self._selection())
+        self.labels_, self.probabilities_ = self._marked(chosen)
+        self._chosen = chosen.chosen
+        self._centres_of(data)
+        return self
+
+    def _tree_of(self, data: Any, kept: _Integers, min_size: int) -> ClusterTree:
+        n = data.shape[0]
+        rank = min_size if self.min_samples is None else _options.whole(
+            "min_samples", self.min_samples, 1)
+        if rank > len(kept):
+            name = "min_cluster_size" if self.min_samples is None else "min_samples"
+            raise UsageError(f"{name}: found {rank}, expected at most the number of rows that are "
+                             f"finite, n_samples = {len(kept)}")
+        alpha = _options.positive("alpha", self.alpha)
+        how: dict[str, Any] = {"metric": self._metric(), "threads": effective_n_jobs(self.n_jobs)}
+        if how["metric"] == "minkowski":
+            how["minkowski_p"] = (self.metric_params or {}).get("p", 2.0)
+        points = data[kept] if len(kept) < n else data
+        births = _core_of_stored(points, rank - 1) if scipy.sparse.issparse(points) \
+            else core_distances(points, rank - 1, **how)
+        if np.isinf(births).any():  # distances: such a row has too few neighbours, and never enters
+            kept = np.flatnonzero(np.isfinite(births))
+            births, points = births[kept], points[kept][:, kept]
+        tree = cluster_tree(points, min_size, complex="rips", threshold=np.inf,
+                            weights=births * alpha, **how)
+        if len(kept) == n and alpha == 1:
+            return tree
+        births_of_all = np.full(n, np.inf)
+        births_of_all[kept] = births
+        return of_forest(births_of_all, tree.values / alpha, kept[tree.edges], min_size, "inverse")
+
+    def _metric(self) -> Any:
+        if callable(self.metric):
+            return self.metric
+        return _METRICS.get(self.metric, self.metric) if isinstance(self.metric, str) \
+            else self.metric
+
+    def _selection(self, **changes: Any) -> dict[str, Any]:
+        largest = self.max_cluster_size
+        return {"method": self.cluster_selection_method, "epsilon": self.cluster_selection_epsilon,
+                "allow_single": self.allow_single_cluster, "max_size": largest, **changes}
+
+    def _marked(self, clusters: Clusters) -> tuple[_Integers, _Numbers]:
+        """Labels and probabilities, with the marks of rows that are not finite."""
+        labels = np.where(self._marks < 0, self._marks, clusters.labels)
+        probabilities = np.where(self._marks == MISSING, np.nan, clusters.probabilities)
+        return labels, probabilities
+
+    def _centres_of(self, data: Any) -> None:
+        if self.store_centers is None:
+            return
+        if scipy.sparse.issparse(data) or self._metric() == "precomputed":
+            raise UsageError("store_centers: found a matrix of distances, expected points")
+        members = [np.flatnonzero(self.labels_ == c) for c in range(len(self._chosen))]
+        weights = [self.probabilities_[rows] for rows in members]
+        shape = (len(members), data.shape[1])
+        if self.store_centers in ("centroid", "both"):
+            self.centroids_ = np.array([np.average(data[rows], weights=w, axis=0) for rows, w in
+                                        zip(members, weights)]).reshape(shape)
+        if self.store_centers in ("medoid", "both"):
+            how = self.metric_params or {}
+            self.medoids_ = np.array([
+                data[rows[np.argmin((pairwise_distances(data[rows], metric=self.metric, **how)
+                                     * w).sum(axis=1))]]
+                for rows, w in zip(members, weights)]).reshape(shape)
+
+    # ---- more results
+
+    @property
+    def outlier_scores_(self) -> _Numbers:
+        """The GLOSH score of each row."""
+        return np.where(self._marks < 0, np.nan, self.cluster_tree_.outlier_scores())
+
+    @property
+    def cluster_persistence_(self) -> _Numbers:
+        """The stability of each cluster, as a share of the largest that a cluster of its size could
+        have."""
+        clusters = self.cluster_tree_.clusters
+        least = clusters["least"][-1] if len(clusters) else 0.0
+        if least == 0:  # copies of a point never separate
+            return np.ones(len(self._chosen))
+        chosen = clusters[self._chosen]
+        return np.asarray(chosen["mass"] / chosen["size"] * least)
+
+    @property
+    def exemplars_(self) -> list[_Integers]:
+        """For each cluster, the rows that stay longest in the leaves of the tree inside it."""
+        tree = self.cluster_tree_
+        clusters = tree.clusters
+        is_leaf = np.ones(len(clusters), dtype=bool)
+        is_leaf[clusters["parent"][clusters["parent"] >= 0]] = False
+        label = np.full(len(clusters), -1)
+        label[self._chosen] = np.arange(len(self._chosen))
+        for c in range(len(clusters) - 2, -1, -1):  # parents come after their children
+            if label[c] < 0:
+                label[c] = label[clusters["parent"][c]]
+        own = tree.cluster_of
+        is_last = is_leaf[own] & (tree.leaves_at == clusters["bottom"][own]) & (self.labels_ >= 0)
+        return [np.flatnonzero(is_last & (label[own] == c)) for c in range(len(self._chosen))]
+
+    @property
+    def merge_tree_(self) -> MergeTree:
+        """All merges of components, whatever their sizes are."""
+        return self.cluster_tree_.merge_tree
+
+    @property
+    def single_linkage_tree_(self) -> _Numbers:
+        """The merges as a linkage matrix of ``scipy.cluster.hierarchy``."""
+        return self.merge_tree_.linkage
+
+    @property
+    def minimum_spanning_tree_(self) -> _Numbers:
+        """The edges of the spanning forest as rows u, v, value, by ascending value."""
+        tree = self.cluster_tree_
+        return np.column_stack([tree.edges, tree.values])
+
+    def cut(self, **changes: Any) -> _Integers:
+        """The labels with other parameters, without another search for the forest.
+
+        Parameters
+        ----------
+        **changes
+            `min_cluster_size`, `cluster_selection_method`, `cluster_selection_epsilon`,
+            `allow_single_cluster` and `max_cluster_size`. Default: those of the estimator.
+        """
+        self._check_fitted()
+        names = {"cluster_selection_method": "method", "cluster_selection_epsilon": "epsilon",
+                 "allow_single_cluster": "allow_single", "max_cluster_size": "max_size"}
+        tree = self.cluster_tree_
+        if "min_cluster_size" in changes:
+            min_size = _options.whole("min_cluster_size", changes.pop("min_cluster_size"), 2)
+            if min_size >= tree.min_size:
+                tree = tree.with_min_size(min_size)
+            else:
+                tree = of_forest(tree.births, tree.values, tree.edges, min_size, tree.scale)
+        for name in changes:
+            _options.choice("keyword", name, ["min_cluster_size", *names])
+        return self._marked(tree.select(**self._selection(
+            **{names[name]: value for name, value in changes.items()})))[0]
+
+    def dbscan_clustering(self, cut_distance: float, min_cluster_size: int = 5) -> _Integers:
+        """The labels of DBSCAN* with a given radius: clusters are components at one value.
+
+        Parameters
+        ----------
+        cut_distance : float
+            Edges with values up to this number join clusters. Rows with a larger core distance are
+            noise.
+        min_cluster_size : int
+            Smaller components are noise.
+
+        Returns
+        -------
+        ndarray
+            Labels as in `labels_`.
+        """
+        self._check_fitted()
+        labels = self.cluster_tree_.cut(
+            _options.real("cut_distance", cut_distance),
+            min_size=_options.whole("min_cluster_size", min_cluster_size, 1))
+        return np.where(self._marks < 0, self._marks, labels)
+
+    def _check_fitted(self) -> None:
+        from sklearn.utils.validation import check_is_fitted
+        check_is_fitted(self)
+
+    def _more_tags(self) -> dict[str, Any]:
+        return {"allow_nan": self.metric != "precomputed", "pairwise": self.metric == "precomputed"}
+
+    def __sklearn_tags__(self) -> Any:
+        tags = super().__sklearn_tags__()
+        tags.input_tags.allow_nan = self.metric != "precomputed"
+        tags.input_tags.pairwise = self.metric == "precomputed"
+        tags.input_tags.sparse = self.metric == "precomputed"
+        return tags
+
+
+def _check_distances(data: Any) -> _Integers:
+    if data.shape[0] != data.shape[1]:
+        raise UsageError(f"X: found a matrix of shape {data.shape}, expected a square one of "
+                         "distances")
+    values = data.data if scipy.sparse.issparse(data) else data
+    if np.isnan(values).any():
+        raise DataError("X: found NaN among the distances, expected numbers at least 0; inf means "
+                        "that a pair is never joined")
+    return np.zeros(data.shape[0], dtype=np.int64)
+
+
+def _core_of_stored(distances: Any, k: int) -> _Numbers:
+    """The core distances of a sparse matrix of distances, infinite for rows that store fewer than k
+    of them."""
+    rows = scipy.sparse.csr_matrix(distances)
+    rows.sum_duplicates()
+    core = np.zeros(rows.shape[0])
+    if k == 0:
+        return core
+    for i in range(rows.shape[0]):
+        of_row = slice(rows.indptr[i], rows.indptr[i + 1])
+        others = rows.data[of_row][rows.indices[of_row] != i]
+        core[i] = np.partition(others, k - 1)[k - 1] if len(others) >= k else np.inf
+    return core
