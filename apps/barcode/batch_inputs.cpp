@@ -10,11 +10,11 @@ namespace ph::barcode {
 namespace {
 
 // The formats that ph-barcode reads, compressed or not. A folder may also contain other files.
-constexpr std::array<std::string_view, 32> kExtensions{
-    ".csv",  ".tsv", ".txt",       ".dat",    ".xyz",  ".xyzrgb",  ".pts",   ".npy",
-    ".npz",  ".png", ".pgm",       ".tif",    ".tiff", ".nii",     ".nrrd",  ".nhdr",
-    ".mha",  ".mhd", ".off",       ".ply",    ".pcd",  ".bin",     ".dipha", ".complex",
-    ".phat", ".coo", ".simplices", ".sparse", ".cub",  ".perseus", ".raw",   ".json"};
+constexpr std::array<std::string_view, 33> kExtensions{
+    ".csv",       ".tsv",    ".txt", ".dat",     ".xyz", ".xyzrgb", ".pts",     ".npy",  ".npz",
+    ".png",       ".pgm",    ".tif", ".tiff",    ".nii", ".nrrd",   ".nhdr",    ".mha",  ".mhd",
+    ".vti",       ".off",    ".ply", ".pcd",     ".bin", ".dipha",  ".complex", ".phat", ".coo",
+    ".simplices", ".sparse", ".cub", ".perseus", ".raw", ".json"};
 constexpr std::array<std::string_view, 9> kBarcodeExtensions{
     ".csv", ".json", ".txt", ".ripser", ".pers", ".dipha", ".diagram", ".npy", ".dat"};
 

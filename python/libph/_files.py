@@ -71,7 +71,8 @@ def read(path: str | os.PathLike[str], format: str | None = None, *,
     Parameters
     ----------
     path : path
-        The file, which may be compressed with gzip.
+        The file, which may be compressed with gzip. "FILE.npz:NAME" and "FILE.vti:NAME" choose one
+        of several arrays.
     format : str, optional
         A name that the option ``--format`` of the program ph-barcode accepts. Default: the format
         is detected from content and extension.
@@ -115,7 +116,7 @@ def read(path: str | os.PathLike[str], format: str | None = None, *,
     -------
     ndarray, coo_array, Simplices, Boundary or Mesh
         Points (n, d), distances (n, n), an image, or sparse distances, depending on the file. An
-        image whose file (NIfTI, NRRD, MetaImage) states the places of its voxels is a
+        image whose file (NIfTI, NRRD, MetaImage, VTI) states the places of its voxels is a
         `SpatialImage`.
     """
     return _answer(found_by(**locals()))

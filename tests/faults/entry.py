@@ -73,6 +73,7 @@ FORMS = {
     "nifti": Form(".nii"),
     "nrrd": Form(".nrrd"),
     "metaimage": Form(".mha"),
+    "vti": Form(".vti"),
     "pgm": Form(".pgm"),
     "png": Form(".png"),
     "tiff": Form(".tif"),

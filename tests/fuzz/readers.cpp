@@ -131,6 +131,7 @@ constexpr std::array kReaders{
     reader<&detail::read_tiff_image>("tiff", ".tif"),
     reader<&volume<&detail::read_nrrd>>("nrrd", ".nrrd"),
     reader<&volume<&detail::read_meta_image>>("metaimage", ".mha"),
+    reader<&volume<&detail::read_vti>>("vti", ".vti"),
     reader<&raw>("raw", ".raw"),
     reader<&raw_points>("raw_points", ".bin"),
     reader<Reads<PerseusImage>(&read_perseus)>("perseus", ".perseus"),

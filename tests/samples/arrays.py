@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Samples of binary formats: NumPy, NIfTI, NRRD, MetaImage, DIPHA, PHAT, Ripser's triangle, PGM and PNG."""
+"""Samples of binary formats: NumPy, NIfTI, NRRD, MetaImage, VTI, DIPHA, PHAT, Ripser's
+triangle, PGM and PNG."""
 import struct
 import zipfile
 import zlib
@@ -8,7 +9,7 @@ from sample import Sample
 import files
 import tiff_files
 from tiff_files import page, tiff
-from files import (GREY, GREY_ALPHA, KINDS, META_TYPES, NIFTI_TYPES, NRRD_TYPES, PALETTE, RGB, RGBA, gzipped, npy, npy_header,
+from files import (GREY, GREY_ALPHA, KINDS, META_TYPES, NIFTI_TYPES, NRRD_TYPES, PALETTE, RGB, RGBA, VTI_TYPES, gzipped, npy, npy_header,
                    npz, packed, png, png_chunk, words)
 
 VALUES = [0, 5, 2, 4, 9, 1]
@@ -101,6 +102,21 @@ META_IMAGE = [
 ]
 
 
+def vti_sample(name, descr, encoding, extents=(3, 2), values=VALUES, **options):
+    return Sample(name, "vti", files.vti(descr, extents, values, encoding, **options), True)
+
+
+VTI = [
+    *(vti_sample(f"{kind}.vti", "<" + kind, "base64") for kind in VTI_TYPES),
+    *(vti_sample(f"{encoding}.vti", "<u2", encoding)
+      for encoding in ("text", "raw", "appended_base64", "gzip_base64", "gzip_raw",
+                       "gzip_appended_base64")),
+    vti_sample("big_endian_i2.vti", ">i2", "gzip_raw"),
+    vti_sample("placed.vti", "|u1", "text", (3, 1, 2),
+               image='Spacing="1 0.5 2" Origin="-3 4 0.5" Direction="1 0 0 0 0 1 0 1 0"'),
+]
+
+
 def dipha(name, reader, *numbers):
     return Sample(name, reader, files.dipha(*numbers), True)
 
@@ -188,4 +204,4 @@ TIFF = [Sample(name + ".tif", "tiff", content, True) for name, content in (
     ("grey_alpha", tiff([page("|u1", (1, 2), [1, 255, 2, 255], t338=1)])),
 )]
 
-SAMPLES = NUMPY + NIFTI + NRRD + META_IMAGE + DIPHA + BINARY + PICTURES + TIFF
+SAMPLES = NUMPY + NIFTI + NRRD + META_IMAGE + VTI + DIPHA + BINARY + PICTURES + TIFF

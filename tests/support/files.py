@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Small encoders of the formats that tests write: NumPy, NIfTI, NRRD, MetaImage,
-DIPHA, PNG and PCD."""
+VTI, DIPHA, PNG and PCD."""
+import base64
 import binascii
 import io
 import struct
@@ -124,6 +125,42 @@ def meta_image(descr, extents, values, encoding="raw", lines=""):
     return (f"ObjectType = Image\nNDims = {len(extents)}\nDimSize = {' '.join(map(str, extents))}\n"
             f"ElementType = MET_{META_TYPES[descr[1:]]}\n{lines}ElementDataFile = LOCAL\n"
             ).encode() + content
+
+
+VTI_TYPES = {"u1": "UInt8", "i2": "Int16", "i4": "Int32", "f4": "Float32", "f8": "Float64",
+             "i1": "Int8", "u2": "UInt16", "u4": "UInt32", "i8": "Int64", "u8": "UInt64"}
+
+
+def vti(descr, extents, values, encoding="raw", lines="", image="", more="", block=4):
+    """A VTI file. @param values one per point, with the first axis fastest. @param encoding text,
+    raw or base64 (in the element), or appended_raw or appended_base64. With "gzip_" before it, the
+    numbers are in blocks of zlib data. @param lines further arrays. @param image further attributes
+    of the image. @param more further attributes of the array. @param block the bytes of a block."""
+    data = packed(descr, values)
+    root = f'byte_order="{"Big" if descr[0] == ">" else "Little"}Endian" header_type="UInt32"'
+    order = ">" if descr[0] == ">" else "<"
+    head = struct.pack(order + "I", len(data))
+    where = encoding.replace("gzip_", "")
+    if where != encoding:
+        root += ' compressor="vtkZLibDataCompressor"'
+        blocks = [zlib.compress(data[k:k + block]) for k in range(0, len(data), block)]
+        head = struct.pack(f"{order}{3 + len(blocks)}I", len(blocks), block, len(data) % block,
+                           *map(len, blocks))
+        data = b"".join(blocks)
+    coded = base64.b64encode(head) + base64.b64encode(data) if where != encoding else base64.b64encode(head + data)
+    inner, after, how = {
+        "text": (" ".join(map(str, values)).encode(), b"", 'format="ascii"'),
+        "base64": (coded, b"", 'format="binary"'),
+        "raw": (b"", head + data, 'format="appended" offset="0"'),
+        "appended_base64": (b"", coded, 'format="appended" offset="0"')}[where]
+    if after:
+        after = (f'<AppendedData encoding="{"raw" if where == "raw" else "base64"}">\n_'.encode() + after
+                 + b"\n</AppendedData>\n")
+    ends = " ".join(f"0 {n - 1}" for n in (*extents, 1, 1)[:3])
+    return (f'<?xml version="1.0"?>\n<VTKFile type="ImageData" version="1.0" {root}>\n'
+            f'<ImageData WholeExtent="{ends}" {image}>\n<Piece Extent="{ends}">\n<PointData>\n'
+            f'{lines}<DataArray type="{VTI_TYPES[descr[1:]]}" Name="a" {how} {more}>\n').encode() + inner + (
+            b"\n</DataArray>\n</PointData>\n</Piece>\n</ImageData>\n" + after + b"</VTKFile>\n")
 
 
 def dipha(*numbers):

@@ -43,8 +43,8 @@ std::optional<PointsView> shown_points(const Shown& shown) {
 /// made from points.
 bool has_axes_of_space(const ReadResult& read) {
   return read.format == Format::nifti || read.format == Format::nrrd ||
-         read.format == Format::metaimage || read.format == Format::dipha ||
-         std::holds_alternative<Points>(read.data);
+         read.format == Format::metaimage || read.format == Format::vti ||
+         read.format == Format::dipha || std::holds_alternative<Points>(read.data);
 }
 
 /// True if the edges up to a value are exactly the pairs of points within this distance, because

@@ -13,8 +13,9 @@
 namespace ph::vectorise {
 namespace {
 
-constexpr std::array<std::string_view, 11> kImages{
-    ".png", ".pgm", ".tif", ".tiff", ".nii", ".nrrd", ".nhdr", ".mha", ".mhd", ".npz", ".grid"};
+constexpr std::array<std::string_view, 12> kImages{".png", ".pgm",  ".tif",  ".tiff",
+                                                   ".nii", ".nrrd", ".nhdr", ".mha",
+                                                   ".mhd", ".vti",  ".npz",  ".grid"};
 
 Cubical read_cubical(const Input& input, CubicalOptions cubical, const Arguments& arguments,
                      app::Session& session) {

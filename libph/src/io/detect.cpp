@@ -27,6 +27,7 @@ constexpr std::array kMagics{Magic{Format::npy, &detail::is_npy},
                              Magic{Format::nifti, &detail::is_nifti},
                              Magic{Format::nrrd, &detail::is_nrrd},
                              Magic{Format::metaimage, &detail::is_meta_image},
+                             Magic{Format::vti, &detail::is_vti},
                              Magic{Format::tiff, &detail::is_tiff}};
 
 // Finds the format by its magic number.
@@ -61,6 +62,7 @@ std::optional<Format> by_extension(const Input& input) {
   if (extension == ".nii" || extension == ".hdr") return Format::nifti;
   if (extension == ".nrrd" || extension == ".nhdr") return Format::nrrd;
   if (extension == ".mha" || extension == ".mhd") return Format::metaimage;
+  if (extension == ".vti") return Format::vti;
   // Files with these extensions must begin with a magic number. If it is missing, the start of the
   // file is damaged, and the reader of the format will report this.
   if (extension == ".pcd") return Format::pcd;

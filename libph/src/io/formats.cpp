@@ -117,6 +117,9 @@ ReadResult nrrd_result(const Input& input, const ReadOptions& options) {
 ReadResult meta_image_result(const Input& input, const ReadOptions& options) {
   return result_of(detail::read_meta_image(input, options), "MetaImage");
 }
+ReadResult vti_result(const Input& input, const ReadOptions& options) {
+  return result_of(detail::read_vti(input, options), "VTI");
+}
 ReadResult raw_result(const Input& input, const ReadOptions& options) {
   if (!options.raw)
     throw Error(ErrorKind::usage,
@@ -245,6 +248,8 @@ constexpr std::array kFormats{
                &nrrd_result},
     FormatInfo{Format::metaimage, "metaimage", "a MetaImage volume, in one file or two",
                "ObjectType = Image", &meta_image_result},
+    FormatInfo{Format::vti, "vti", "an array of a VTK image: FILE.vti or FILE.vti:NAME",
+               "<VTKFile type=\"ImageData\" …>", &vti_result},
     FormatInfo{Format::phat, "phat",
                "a boundary matrix, ascii or binary: one cell per line, "
                "its dimension and facets",

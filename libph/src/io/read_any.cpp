@@ -19,6 +19,7 @@ bool goes_by_blocks(const Input& input, Format format, const ReadOptions& option
     case Format::nifti:
     case Format::nrrd:
     case Format::metaimage:
+    case Format::vti:
     case Format::tiff:
       return true;
     case Format::raw:

@@ -12,7 +12,7 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../
 import program  # noqa: E402
 from tiff_files import page, tiff  # noqa: E402
 from program import SQUARE_CSV, ProgramTest  # noqa: E402
-from files import dipha, meta_image, nifti, nrrd  # noqa: E402
+from files import dipha, meta_image, nifti, nrrd, vti  # noqa: E402
 
 DISTANCES = "0 1 2 1.5\n1 0 1.25 2\n2 1.25 0 1\n1.5 2 1 0\n"
 
@@ -20,7 +20,7 @@ DISTANCES = "0 1 2 1.5\n1 0 1.25 2\n2 1.25 0 1\n1.5 2 1 0\n"
 class Formats(ProgramTest):
     def test_table(self):
         text = self.expect(0, "--formats").stdout
-        for name in ("points", "sparse", "dipha", "npz", "nifti", "nrrd", "metaimage", "tiff", "perseus", "json", "ripser"):
+        for name in ("points", "sparse", "dipha", "npz", "nifti", "nrrd", "metaimage", "vti", "tiff", "perseus", "json", "ripser"):
             self.assertRegex(text, rf"(?m)^  {name} +\S")
 
     def bars(self, name, content, *options):
@@ -50,6 +50,8 @@ class Formats(ProgramTest):
             self.assertEqual(self.bars("a.tif", picture), expected)
             volume = meta_image("|u1", (3, 2, 1), values, encoding)
             self.assertEqual(self.bars("a.mha", volume), expected)
+        for encoding in ("text", "base64", "raw", "gzip_raw", "gzip_base64", "gzip_appended_base64"):
+            self.assertEqual(self.bars("a.vti", vti("<f4", (3, 2), values, encoding)), expected)
 
     def test_one_set_of_distances_in_many_formats(self):
         rows = [[float(d) for d in line.split()] for line in DISTANCES.splitlines()]

@@ -275,6 +275,8 @@ def inputs(Input, program):
         nan=files.nrrd("<f4", (3, 3, 3), [math.nan, *volume[1:]]))
     add("MetaImage", ["v.mha"], {"v.mha": files.meta_image("<f4", (3, 3, 3), volume)}, 4,
         nan=files.meta_image("<f4", (3, 3, 3), [math.nan, *volume[1:]]))
+    add("VTI", ["v.vti"], {"v.vti": files.vti("<f4", (3, 3, 3), volume)}, 4,
+        nan=files.vti("<f4", (3, 3, 3), [math.nan, *volume[1:]]))
     slices = [tiff_files.page("<f4", (3, 3), volume[k:k + 9]) for k in (0, 9, 18)]
     nan_slices = [tiff_files.page("<f4", (3, 3), [math.nan, *volume[1:9]]), *slices[1:]]
     add("TIFF", ["v.tif"], {"v.tif": tiff_files.tiff(slices)}, 4, nan=tiff_files.tiff(nan_slices))

@@ -15,7 +15,7 @@ EMPTY = {
     "upper-distance": "no points", "sparse": "no points", "binary": "no points",
     "simplices": "no simplices", "phat": "no cells", "dipha": "truncated",
     "perseus": "no dimension", "npy": "truncated", "npz": "truncated archive",
-    "nifti": "truncated", "nrrd": "not an NRRD", "metaimage": "truncated in the header",
+    "nifti": "truncated", "nrrd": "not an NRRD", "metaimage": "truncated in the header", "vti": "not a VTI",
     "pgm": "not a PGM", "png": "not a PNG", "tiff": "not a TIFF",
     "off": "not an OFF",
     "gzip": "no points", "pcd": "truncated PCD header", "ply": "truncated PLY header",
@@ -107,7 +107,7 @@ def binary():
     random = bytes((i * i * 31 + 7 * i) % 255 + 1 for i in range(300)).replace(b"#", b"")
     yield refused(7, "points", "bytes without NUL", random, r"not a number|mixed separators")
     yield refused(7, "xyz", "a binary cloud", sample("pcd", "binary.pcd")[180:], "not plain text")
-    for form in ("dipha", "npy", "npz", "nifti", "nrrd", "metaimage", "pgm", "png", "tiff", "pcd", "ply", "off", "pts"):
+    for form in ("dipha", "npy", "npz", "nifti", "nrrd", "metaimage", "vti", "pgm", "png", "tiff", "pcd", "ply", "off", "pts"):
         yield refused(7, form, "text instead", "0 0\n1 0\n1 1\n", "input" + FORMS[form].extension)
 
 

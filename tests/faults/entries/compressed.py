@@ -8,7 +8,8 @@ import zlib
 
 from arrays import GRID, VALUES
 from clouds import CORNERS, TRIANGLE, XYZ, columns, floats, ply_header
-from files import (GREY, PNG_SIGNATURE, gzipped, lzf, meta_image, nifti, nrrd, npy, npz, pcd_header, png, png_chunk)
+from files import (GREY, PNG_SIGNATURE, gzipped, lzf, meta_image, nifti, nrrd, npy, npz, pcd_header, png, png_chunk,
+                   vti)
 
 from entry import refused, sample, with_bytes, with_change
 
@@ -131,12 +132,14 @@ def bombs():
     bomb = zeros(256)
     yield refused(40, "gzip", "256 MiB", bomb, too_much)
     yield refused(40, "gzip", "256 MiB behind a small member", gzipped(TEXT) + bomb, too_much)
-    for form in ("npy", "nifti", "nrrd", "metaimage", "pcd", "ply", "dipha"):
+    for form in ("npy", "nifti", "nrrd", "metaimage", "vti", "pcd", "ply", "dipha"):
         yield refused(40, form, "256 MiB", bomb, too_much)
     yield refused(40, "nrrd", "256 MiB of voxels",
                   nrrd("|u1", (1 << 28,), [], "gzip") + bomb, too_much)
     yield refused(40, "metaimage", "256 MiB of voxels",
                   meta_image("|u1", (1 << 28,), [], lines="CompressedData = 1\n") + bomb, too_much)
+    yield refused(40, "vti", "256 MiB of voxels",
+                  vti("|u1", (1 << 14, 1 << 14), bytes(1 << 28), "gzip_raw", block=1 << 28), too_much)
     # The gzip trailer states a size that is too small. Unpacking still stops, at the larger of 128
     # MiB and 256 times the packed size. Here, this is 128 MiB.
     yield refused(40, "gzip", "256 MiB, said to be 1", with_bytes(bomb, -4, b"\1\0\0\0"), too_much,
@@ -183,6 +186,10 @@ def trailing():
             ("metaimage", meta_image("|u1", (3, 2), VALUES) + b"\0"),
             ("metaimage", meta_image("|u1", (3, 2), VALUES, "gzip") + b"\0"),
             ("metaimage", meta_image("|u1", (3, 2), VALUES, "text") + b" 7"),
+            ("vti", vti("|u1", (3, 2), VALUES) + b"\0"),
+            ("vti", vti("|u1", (3, 2), VALUES + [7]).replace(b'"0 6', b'"0 5')),
+            ("vti", vti("|u1", (3, 2), VALUES + [7], "text")),
+            ("vti", vti("|u1", (3, 2), VALUES, "base64").replace(b"=\n</D", b"=AAAA\n</D")),
             ("nrrd", nrrd("|u1", (3, 2), VALUES) + b"\0"),
             ("nrrd", nrrd("|u1", (3, 2), VALUES, "gzip") + b"\0"),
             ("nrrd", nrrd("|u1", (3, 2), VALUES, "text") + b" 7"),

@@ -208,7 +208,8 @@ def inputs():
     for name, words in (("npy", "not an NPY file"), ("png", "not a PNG file"),
                         ("dipha", "not a DIPHA file"), ("pgm", "not a PGM file"),
                         ("npz", "not an NPZ archive"), ("nifti", "not a NIfTI-1 file"),
-                        ("nrrd", "not an NRRD file"), ("metaimage", "not a MetaImage"), ("tiff", "not a TIFF file"),
+                        ("nrrd", "not an NRRD file"), ("metaimage", "not a MetaImage"), ("vti", "not a VTI file"),
+                        ("tiff", "not a TIFF file"),
                         ("pcd", "not a PCD file"), ("points", "not plain text"),
                         ("sparse", "not plain text"), ("simplices", "not plain text")):
         yield refused(53, f"/dev/urandom as {name}", "/dev/urandom", "--format", name, code=65,

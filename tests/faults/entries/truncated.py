@@ -7,7 +7,7 @@ from entry import Entry, refused
 
 ROW_OF_READER = {
     "points": 25, "npy_points": 25, "distances": 25, "sparse": 25, "lower_distances": 25,
-    "image": 26, "npy_image": 26, "nifti": 26, "nrrd": 26, "metaimage": 26, "tiff": 26,
+    "image": 26, "npy_image": 26, "nifti": 26, "nrrd": 26, "metaimage": 26, "vti": 26, "tiff": 26,
     "perseus": 26,
     "phat": 27, "off": 27, "welded": 27, "ply_mesh": 27,
     "pcd": 28, "ply": 28, "pts": 28, "npy_cloud": 28, "tree": 28,

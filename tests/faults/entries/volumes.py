@@ -113,6 +113,67 @@ def meta_entries():
                 "truncated, found 5 bytes, expected 6", "input.raw", {"a.mhd": header, "input.raw": bytes(5)})
 
 
+def vti(encoding="raw", **options):
+    return files.vti(**{"descr": "|u1", "extents": (3, 2), "values": VALUES, "encoding": encoding,
+                        **options})
+
+
+def vti_entries():
+    form = "vti"
+    huge = {"extents": (10 ** 6, 10 ** 6)}
+    for encoding in ("raw", "base64", "text"):
+        yield refused(31, form, f"10^12 voxels, {encoding}", vti(encoding, **huge), "truncated")
+        yield refused(32, form, f"2^93 voxels, {encoding}", vti(encoding, extents=[2 ** 31] * 3),
+                      "more than 2.64")
+    yield refused(31, form, "10^12 voxels, packed", vti("gzip_base64", **huge), "truncated")
+    for name, count in (("10^12 bytes", 10 ** 12), ("2^64 - 1 bytes", 2 ** 64 - 1)):
+        wide = with_change(vti(**huge), b"UInt32", b"UInt64")
+        yield refused(31, form, f"{name} in the count", with_change(wide, b"_\6\0\0\0", b"_"
+                      + struct.pack("<Q", count)), "truncated array|array does not fit")
+    packed = vti("gzip_raw", block=6)
+    for name, counts in (("blocks", (10 ** 9, 6, 0)), ("bytes per block", (1, 2 ** 32 - 1, 0)),
+                         ("no blocks", (0, 6, 0)), ("a last block", (1, 6, 7))):
+        yield refused(35, form, f"packed: {name}",
+                      with_change(packed, struct.pack("<3I", 1, 6, 0), struct.pack("<3I", *counts)),
+                      "array does not fit")
+    at = packed.index(b"\n_") + 14
+    yield refused(35, form, "packed size", with_bytes(packed, at, struct.pack("<I", 10 ** 9)),
+                  "truncated array")
+    yield refused(33, form, "an extent", with_change(vti(), b'"0 2 0 1', b'"0 -3 0 1'),
+                  "WholeExtent, found 0 -3 0 1 0 0")
+    yield refused(34, form, "an extent", with_change(vti(), b'"0 2 0 1', b'"0 2147483648 0 1'),
+                  "WholeExtent, found 0 2147483648")
+    yield refused(35, form, "a piece", with_change(vti(), b'<Piece Extent="0 2', b'<Piece Extent="0 1'),
+                  "the extent of the image")
+    yield refused(35, form, "spacings", vti(image='Spacing="1 1"'), "expected 3 numbers")
+    yield refused(35, form, "an offset", with_change(vti(), b'offset="0"', b'offset="99"'),
+                  "offset, found 99")
+    yield refused(35, form, "an attribute twice", vti(more='type="Int8"'), "a second attribute type")
+    yield refused(35, form, "no type", with_change(vti(), b"type=\"UInt8", b"typ=\"UInt8"),
+                  "DataArray without type")
+    yield refused(35, form, "tags", with_change(vti(), b"</Piece>", b"</piece>"),
+                  "found </piece>, expected </Piece>")
+    yield refused(38, form, "type", with_change(vti(), b"UInt8", b"Bit"), "type, found Bit")
+    yield refused(38, form, "compressor", with_change(vti("gzip_raw"), b"ZLib", b"LZ4"),
+                  "vtkLZ4DataCompressor.*SetCompressorTypeToZLib")
+    yield refused(38, form, "vectors", vti(more='NumberOfComponents="3"'),
+                  "one number per voxel; save one component")
+    yield refused(38, form, "kind of data", with_change(vti(), b"ImageData", b"PolyData"),
+                  "found PolyData, expected ImageData", "--format", "vti")
+    yield refused(38, form, "pieces", with_change(vti(), b"</Piece>", b"</Piece><Piece>"),
+                  "a second Piece, expected one; join the pieces")
+    other = '<DataArray type="UInt8" Name="b" format="ascii">1 1 1 1 1 1</DataArray>'
+    yield refused(38, form, "several arrays", vti(lines=other),
+                  r"several arrays.*choose one, for example input\.vti:b")
+    yield taken(38, form, "scalars among several arrays",
+                with_change(vti(lines=other), b"<PointData>", b'<PointData Scalars="a">'), BARS,
+                note="read the array a, which the file marks as its scalars")
+    yield refused(39, form, "Base64", with_change(vti("base64"), b"BgAAAA", b"BgA!AA"),
+                  "damaged Base64 data")
+    yield refused(39, form, "zlib data", with_change(packed, zlib.compress(bytes(VALUES)), bytes(14)),
+                  "zlib")
+
+
 def tiff(values=VALUES, descr="|u1", shape=(2, 3), compression=tiff_files.NONE, **fields):
     return tiff_files.tiff([tiff_files.page(descr, shape, values, compression, **fields)])
 
@@ -212,4 +273,4 @@ def stack_entries():
                 "--stack reads the pictures", "s", around=with_slices(_1_pgm=first))
 
 
-ENTRIES = [*nrrd_entries(), *meta_entries(), *tiff_entries(), *stack_entries()]
+ENTRIES = [*nrrd_entries(), *meta_entries(), *vti_entries(), *tiff_entries(), *stack_entries()]

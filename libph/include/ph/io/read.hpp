@@ -179,9 +179,9 @@ DistanceMatrix read_binary_distances(const Input& input, const ReadOptions& opti
 SparseDistances read_sparse(const std::filesystem::path& path, const ReadOptions& options = {});
 SparseDistances read_sparse(const Input& input, const ReadOptions& options = {});
 
-/// An array of any dimension from NPY, NPZ, PNG, PGM, TIFF, DIPHA, NIfTI, NRRD or MetaImage,
-/// recognised by content. The axes are the axes of the file, in C order: a picture has (y, x), the
-/// pages of TIFF have (z, y, x), and the volumes of the last four formats have (x, y, z).
+/// An array of any dimension from NPY, NPZ, PNG, PGM, TIFF, DIPHA, NIfTI, NRRD, MetaImage or
+/// VTI, recognised by content. The axes are the axes of the file, in C order: a picture has (y, x),
+/// the pages of TIFF have (z, y, x), and the volumes of the last five formats have (x, y, z).
 /// With options.stack, the path is a folder, whose PNG, PGM or TIFF pictures of one kind are the
 /// slices of a volume (z, y, x), in the natural order of their names: slice2 before slice10.
 /// +-infinity is legal; NaN is an error or, with NanPolicy::drop, an absent voxel. An array that
@@ -304,6 +304,7 @@ enum class Format {
   nifti,
   nrrd,
   metaimage,
+  vti,
   phat,
   simplices,
   off,
@@ -330,8 +331,8 @@ struct ReadResult {
   /// For an Image: true for each axis that closes up on itself, according to the file. Empty if no
   /// axis does.
   std::vector<bool> periodic;
-  /// For an Image: the places of its voxels in space, if the file (NIfTI, NRRD, MetaImage) states
-  /// them.
+  /// For an Image: the places of its voxels in space, if the file (NIfTI, NRRD, MetaImage, VTI)
+  /// states them.
   std::optional<Affine> affine;
 };
 

@@ -78,18 +78,6 @@ std::string message_of(const std::string& place, const Fault& fault) {
 
 }  // namespace
 
-std::pair<std::filesystem::path, std::string> split_member(const std::filesystem::path& path) {
-  const std::string name = path.string();
-  std::error_code ignored;
-  for (const std::string_view suffix : {".npz:", ".ply:"}) {
-    const std::size_t mark = name.rfind(suffix);
-    if (mark == std::string::npos || std::filesystem::exists(path, ignored)) continue;
-    return {files::path_of(name.substr(0, mark + suffix.size() - 1)),
-            name.substr(mark + suffix.size())};
-  }
-  return {path, {}};
-}
-
 std::string printable(std::string_view bytes, std::size_t max_bytes) {
   std::string result;
   while (!bytes.empty()) {

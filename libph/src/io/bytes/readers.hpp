@@ -70,6 +70,8 @@ bool is_dipha(const Input& input);
 bool is_nrrd(const Input& input);
 bool is_tiff(const Input& input);
 bool is_meta_image(const Input& input);
+/// True for an XML text whose first element is a VTKFile of type ImageData.
+bool is_vti(const Input& input);
 
 /// True if the first bytes contain no control characters except tabs and line ends. Binary formats
 /// begin with an eight-byte count. A count below 2^40 contains NUL bytes, which do not occur in
@@ -93,6 +95,11 @@ bool is_counted(const Input& input);
 Image read_npy_array(const Input& input, Input::Excess excess = Input::Excess::refused);
 /// True if an NPY contains floats. Precondition: the input is an NPY.
 bool is_npy_of_floats(const Input& input);
+/// Throws Error (bad_data), because a file has not the array that input.member() names or, without
+/// such a name, has not exactly one array. @param names its arrays, printable. @param whole "the
+/// archive".
+[[noreturn]] void refuse_members(const Input& input, std::vector<std::string> names,
+                                 std::string_view whole);
 /// The only array of an NPZ, or the array that input.member() names, unpacked.
 Input read_npz_member(const Input& input);
 
@@ -116,6 +123,10 @@ Volume read_nrrd(const Input& input, const ReadOptions& options);
 /// Reads a MetaImage, the format of ITK. The numbers may be in another file, which the header
 /// names.
 Volume read_meta_image(const Input& input, const ReadOptions& options);
+
+/// Reads an array of a VTI file, the images of VTK: the array that input.member() names, the only
+/// array, or the array that the file marks as its scalars.
+Volume read_vti(const Input& input, const ReadOptions& options);
 
 /// A volume whose slices are pictures.
 struct Stack {

@@ -15,6 +15,7 @@ Image read_image(const Input& input, const ReadOptions& options) {
   if (detail::is_tiff(input)) return detail::read_tiff_image(input, options);
   if (detail::is_nrrd(input)) return detail::read_nrrd(input, options).image;
   if (detail::is_meta_image(input)) return detail::read_meta_image(input, options).image;
+  if (detail::is_vti(input)) return detail::read_vti(input, options).image;
   return read_npy_image(input, options);
 }
 

@@ -208,8 +208,7 @@ class MetaImage {
       }
     }
     volume_.affine = affine_of(vectors, origin, {-1, -1, 1});
-    if (!volume_.affine)
-      note(options_, "the places of the voxels are not used, because they are no finite numbers");
+    if (!volume_.affine) note(options_, kNoPlaces);
   }
 
   VolumeHeader header_;

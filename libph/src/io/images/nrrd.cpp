@@ -317,8 +317,7 @@ class Nrrd {
     if (width == 2 || width == 3) volume_.affine = affine_of(vectors, origin, signs);
     if (!volume_.affine)
       note(options_, width == 2 || width == 3
-                         ? "the places of the voxels are not used, because they are no finite "
-                           "numbers"
+                         ? std::string(kNoPlaces)
                          : fmt::format("the places of the voxels are not used, because the space "
                                        "has {} dimensions instead of 2 or 3",
                                        width));

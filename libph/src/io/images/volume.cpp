@@ -55,14 +55,6 @@ Input open_data(const VolumeHeader& header, const HeaderField& field) {
   }
 }
 
-// The number of bytes that the numbers take, unless it exceeds size_t.
-std::optional<std::size_t> bytes_of(const StoredVolume& volume, std::size_t each) {
-  std::optional<std::size_t> bytes = each;
-  for (const Index extent : volume.extents)
-    if (bytes) bytes = checked_product(*bytes, static_cast<std::size_t>(extent));
-  return bytes;
-}
-
 // Skips bytes that the header declares to come before the data.
 std::size_t skipped(const Input& data, std::size_t offset, std::size_t lines, std::size_t bytes) {
   const auto fail = [&] {
@@ -128,6 +120,8 @@ Image read_numbers(const Input& data, std::size_t offset, const StoredVolume& vo
   });
 }
 
+}  // namespace
+
 Image load_numbers(const Input& data, const StoredVolume& volume) {
   const ElementType type = *element_type(volume.kind);
   const std::optional<std::size_t> bytes = bytes_of(volume, type.size);
@@ -153,7 +147,16 @@ Image load_numbers(const Input& data, const StoredVolume& volume) {
   return load(unpacked, skipped(unpacked, 0, 0, volume.skip));
 }
 
-}  // namespace
+std::optional<std::size_t> bytes_of(const StoredVolume& volume, std::size_t each) {
+  std::optional<std::size_t> bytes = each;
+  for (const Index extent : volume.extents)
+    if (bytes) bytes = checked_product(*bytes, static_cast<std::size_t>(extent));
+  return bytes;
+}
+
+void drop_last_axes(std::vector<Index>& extents) {
+  while (extents.size() > 1 && extents.back() == 1) extents.pop_back();
+}
 
 std::optional<Affine> affine_of(const std::vector<std::vector<double>>& vectors,
                                 const std::vector<double>& origin,
@@ -175,8 +178,7 @@ std::optional<Affine> affine_of(const std::vector<std::vector<double>>& vectors,
 }
 
 Volume load_volume(const VolumeHeader& header, StoredVolume volume, const ReadOptions& options) {
-  auto& extents = volume.extents;
-  while (extents.size() > 1 && extents.back() == 1) extents.pop_back();
+  drop_last_axes(volume.extents);
   const auto load = [&](const Input& data) {
     return Volume{without_nan_pixels(load_numbers(data, volume), data, options), volume.affine};
   };

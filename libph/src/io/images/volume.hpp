@@ -88,6 +88,16 @@ std::optional<Affine> affine_of(const std::vector<std::vector<double>>& vectors,
                                 const std::vector<double>& origin,
                                 const std::array<double, 3>& signs);
 
+/// The note on an affine map that is not used.
+constexpr std::string_view kNoPlaces =
+    "the places of the voxels are not used, because they are no finite numbers";
+
+/// The number of bytes that the numbers take, unless it exceeds size_t.
+std::optional<std::size_t> bytes_of(const StoredVolume& volume, std::size_t each);
+/// Drops the axes of size 1 after the last other one.
+void drop_last_axes(std::vector<Index>& extents);
+/// Reads the numbers of a volume from the input that contains them.
+Image load_numbers(const Input& data, const StoredVolume& volume);
 /// Reads the numbers of a volume. Trailing axes of size 1 are dropped.
 Volume load_volume(const VolumeHeader& header, StoredVolume volume, const ReadOptions& options);
 

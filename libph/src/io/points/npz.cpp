@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -124,28 +123,15 @@ std::vector<Member> directory_of(const Input& input) {
 }
 
 const Member& chosen(const Input& input, const std::vector<Member>& members) {
+  if (input.member().empty() && members.size() == 1) return members.front();
   std::vector<std::string> names;
-  for (const Member& member : members) names.push_back(printable(member.array(), 40));
-  constexpr std::size_t kShown = 10;
-  const std::size_t count = names.size();
-  if (count > kShown) {
-    names.resize(kShown);
-    names.push_back("...");
-  }
-  const std::string list = fmt::format("{}", fmt::join(names, ", "));
-  if (input.member().empty()) {
-    if (count == 1) return members.front();
-    if (count == 0) input.fail({"empty archive", "no arrays", "one", {}});
-    input.fail({"several arrays in the archive", fmt::format("{} ({})", count, list), "one",
-                fmt::format("choose one, for example {}:{}", input.name(), names.front())});
-  }
   for (const Member& member : members) {
-    if (member.array() == input.member() || member.name == input.member()) return member;
+    if (!input.member().empty() &&
+        (member.array() == input.member() || member.name == input.member()))
+      return member;
+    names.push_back(printable(member.array(), 40));
   }
-  input.fail({"no such array in the archive",
-              printable(input.member(), 40),
-              list.empty() ? "arrays" : "one of " + list,
-              {}});
+  refuse_members(input, std::move(names), "the archive");
 }
 
 }  // namespace

@@ -462,7 +462,7 @@ TEST(ReadTable, FilesOfOtherProgramsAreNamedWithAWayOut) {
       {ptx + "0.5 1 2 0.25\n0.5 1 3 0.25\n", "PTX", "PLY"},
       {ptx + "0.5 1 2 0.25 9 9 9\n", "PTX", "PLY"},
       {"<?xml version=\"1.0\"?>\n<!DOCTYPE GIFTI>\n<GIFTI Version=\"1.0\">\n", "GIFTI", "PLY"},
-      {"<VTKFile type=\"ImageData\" version=\"1.0\">\n", "VTK", ".npy"},
+      {"<VTKFile type=\"PolyData\" version=\"1.0\">\n", "VTK", ".npy"},
       {"<?xml version=\"1.0\"?>\n<data/>\n", "XML", "text"},
   };
   for (const auto& [bytes, name, way] : cases) {

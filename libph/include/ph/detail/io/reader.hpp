@@ -29,8 +29,8 @@ namespace ph {
 /// "...".
 std::string printable(std::string_view bytes, std::size_t max_bytes = 4096);
 
-/// Splits "FILE.npz:NAME" or "FILE.ply:NAME" into the file and the requested part of it. Any other
-/// path, and any path that exists under its full name, stands for the file alone.
+/// Splits "FILE.npz:NAME", "FILE.ply:NAME" or "FILE.vti:NAME" into the file and the requested part
+/// of it. Any other path, and any path that exists under its full name, stands for the file alone.
 std::pair<std::filesystem::path, std::string> split_member(const std::filesystem::path& path);
 
 /// The problem at one place of an input. Empty parts are left out of the message.
