@@ -22,6 +22,7 @@
 #include "apps/common/values/numbers.hpp"
 #include "ph/detail/core/files.hpp"
 #include "ph/detail/core/fingerprint.hpp"
+#include "ph/detail/io/further_files.hpp"
 #include "ph/detail/io/reader.hpp"
 
 namespace ph::barcode {
@@ -48,10 +49,14 @@ void require_batch_options(const Job& job) {
 /// file, because other files can be read only once.
 std::uint64_t fingerprint_of(const std::string& input, const Job& job) {
   Fingerprint fingerprint;
+  std::vector<std::filesystem::path> paths{split_member(files::path_of(input)).first};
+  // mutant: part-data-file
+  const auto further = detail::further_files(paths[0], job.reading.format);
+  paths.insert(paths.end(), further.begin(), further.end());
   for (const std::string& path :
-       {input, job.reading.values, job.question.vertex_weights, job.question.weights}) {
-    if (path.empty()) continue;
-    const std::filesystem::path of_file = split_member(files::path_of(path)).first;
+       {job.reading.values, job.question.vertex_weights, job.question.weights})
+    if (!path.empty()) paths.push_back(split_member(files::path_of(path)).first);
+  for (const std::filesystem::path& of_file : paths) {
     std::error_code error;
     if (!std::filesystem::is_regular_file(of_file, error)) return 0;
     std::ifstream file(of_file, std::ios::binary);

@@ -8,6 +8,8 @@ MUTANTS = [
     *found_by("ph_barcode_parts", [
         ("parts: a part of other voxels is kept", "part-voxels", "return true;"),
         ("parts: a part of other files is kept", "part-content", "|| now != result.fingerprint", ""),
+        ("parts: a part of another data file is kept", "part-data-file",
+         "const std::vector<std::filesystem::path> further;"),
         ("parts: part 1 is the second", "part-number", "- 1", "% static_cast<int>(parts)"),
         ("parts: a part that is there twice is taken twice", "part-twice", ") throw", "&& number < 0) throw"),
         ("parts: an input that failed is not told of", "part-failed", "return app::kOk;"),
@@ -146,7 +148,7 @@ MUTANTS = [
     ], targets=["ph-segment"]),
     *found_by("ph_barcode_large_files", [
         ("report: the file whose SHA-256 it says stays resident", "report-sha256",
-         "return hex_of(input.bytes(), context, [](std::size_t, std::size_t) {});"),
+         "static_cast<void>(size);"),
         ("slabs: what is mapped around a slab stays resident", "slab-mapped", "64 << 10", "0"),
         ("report: the voxels that a page holds stay resident", "report-voxels",
          "static_cast<void>(bytes + begin * sizeof(Word) + end);"),

@@ -127,6 +127,13 @@ def meta_image(descr, extents, values, encoding="raw", lines=""):
             ).encode() + content
 
 
+def two_files(extents, values, data):
+    """The header of a MetaImage, and its data file, whose name is `data`."""
+    whole = meta_image("|u1", extents, values)
+    at = whole.index(b"LOCAL")
+    return whole[:at] + data.encode() + b"\n", whole[at + len(b"LOCAL\n"):]
+
+
 VTI_TYPES = {"u1": "UInt8", "i2": "Int16", "i4": "Int32", "f4": "Float32", "f8": "Float64",
              "i1": "Int8", "u2": "UInt16", "u4": "UInt32", "i8": "Int64", "u8": "UInt64"}
 

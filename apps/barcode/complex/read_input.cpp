@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "ph/detail/core/files.hpp"
+#include "ph/detail/io/further_files.hpp"
 #include "ph/detail/io/table.hpp"
 #include "ph/detail/report/sha256.hpp"
 
@@ -65,6 +66,15 @@ void embed(const std::string& name, const Delay& delay, std::size_t dropped,
   read.data = std::move(points);
 }
 
+/// The hash of all bytes that were read. A folder has no bytes of its own.
+std::string hash_of(const Input& input, Format format, const RunContext& context) {
+  report::Sha256 hash(context);
+  hash.add(input);
+  for (const auto& path : detail::further_files(input.path(), format))
+    hash.add(Input::open_stored(path, &context, Input::Excess::is_expected));
+  return hash.hex();
+}
+
 }  // namespace
 
 Input open_input(const std::string& path, const Job& job, const RunContext& context,
@@ -88,9 +98,7 @@ NamedData read_input(const Input& input, const Job& job, const RunContext& conte
   if (std::string note = note_on_mesh(read, job); !note.empty())
     read.notes.push_back(std::move(note));
   std::string sha256;
-  // A folder has no bytes of its own.
-  if (!job.places.report.empty() && !job.results.dry_run && !options.stack)
-    sha256 = report::sha256_hex(input, context);
+  if (!job.places.report.empty() && !job.results.dry_run) sha256 = hash_of(input, format, context);
   return {input.name(), std::move(read), dropped.size(), std::move(sha256)};
 }
 

@@ -11,7 +11,6 @@
 namespace ph::report {
 namespace {
 
-constexpr std::size_t kBlock = 64;  // in bytes
 using State = std::array<std::uint32_t, 8>;
 
 // These numbers of FIPS 180-4, 4.2.2, are derived from the cube roots of the first 64 primes.
@@ -56,48 +55,60 @@ void add_block(State& state, const std::byte* block) {
   for (std::size_t i = 0; i < state.size(); ++i) state[i] += added[i];
 }
 
-/// @param done_with called as done_with(begin, size) after each part of about a MiB has been read.
-template <class DoneWith>
-std::string hex_of(std::span<const std::byte> bytes, const RunContext& context,
-                   DoneWith&& done_with) {
-  constexpr std::size_t part = std::size_t{1} << 20;  // a multiple of kBlock
-  State state = {0x6a09e667, 0xbb67ae85, 0x3c6ef372, 0xa54ff53a,
-                 0x510e527f, 0x9b05688c, 0x1f83d9ab, 0x5be0cd19};
-  Ticker ticker(context, "hash", bytes.size() / kBlock);
-  std::size_t at = 0, given_back = 0;
-  for (; bytes.size() - at >= kBlock; at += kBlock) {
-    if (at - given_back == part) {
-      done_with(given_back, part);
-      given_back = at;
-    }
-    add_block(state, bytes.data() + at);
+}  // namespace
+
+void Sha256::add(std::span<const std::byte> bytes, Ticker& ticker) {
+  const std::size_t waiting = bytes_ % kBlock;
+  bytes_ += bytes.size();
+  if (waiting > 0) {
+    const std::size_t taken = std::min(kBlock - waiting, bytes.size());
+    std::ranges::copy(bytes.first(taken), rest_.begin() + static_cast<std::ptrdiff_t>(waiting));
+    bytes = bytes.subspan(taken);
+    if (waiting + taken < kBlock) return;
+    add_block(state_, rest_.data());
+  }
+  for (; bytes.size() >= kBlock; bytes = bytes.subspan(kBlock)) {
+    add_block(state_, bytes.data());
     ticker.tick();
   }
+  std::ranges::copy(bytes, rest_.begin());
+}
+
+void Sha256::add(std::span<const std::byte> bytes) {
+  Ticker ticker(context_, "hash", bytes.size() / kBlock);
+  add(bytes, ticker);
+}
+
+void Sha256::add(const Input& input) {
+  constexpr std::size_t part = std::size_t{1} << 20;
+  Ticker ticker(context_, "hash", input.size() / kBlock);
+  for (std::size_t begin = 0; begin < input.size(); begin += part) {
+    const std::size_t size = std::min(part, input.size() - begin);
+    add(input.bytes().subspan(begin, size), ticker);
+    input.done_with(begin, size);  // mutant: report-sha256
+  }
+}
+
+std::string Sha256::hex() const {
   // The padding consists of a one, zeros, and the length in the last eight bytes.
-  const std::span last = bytes.subspan(at);
-  const std::uint64_t bits = std::uint64_t{8} * bytes.size();
-  std::array<std::byte, 2 * kBlock> rest{};
-  std::ranges::copy(last, rest.begin());
-  done_with(given_back, bytes.size() - given_back);
-  rest[last.size()] = std::byte{0x80};
-  const std::size_t end = last.size() + 9 <= kBlock ? kBlock : 2 * kBlock;
-  for (std::size_t k = 0; k < 8; ++k) rest[end - 1 - k] = static_cast<std::byte>(bits >> 8 * k);
-  for (std::size_t k = 0; k < end; k += kBlock) add_block(state, rest.data() + k);
+  State state = state_;
+  std::array<std::byte, 2 * kBlock> last{};
+  const std::size_t waiting = bytes_ % kBlock;
+  std::copy_n(rest_.begin(), waiting, last.begin());
+  last[waiting] = std::byte{0x80};
+  const std::size_t end = waiting + 9 <= kBlock ? kBlock : 2 * kBlock;
+  for (std::size_t k = 0; k < 8; ++k)
+    last[end - 1 - k] = static_cast<std::byte>(8 * bytes_ >> 8 * k);
+  for (std::size_t k = 0; k < end; k += kBlock) add_block(state, last.data() + k);
   std::string text;
   for (const std::uint32_t word : state) text += fmt::format("{:08x}", word);
   return text;
 }
 
-}  // namespace
-
-std::string sha256_hex(std::span<const std::byte> bytes, const RunContext& context) {
-  return hex_of(bytes, context, [](std::size_t, std::size_t) {});
-}
-
 std::string sha256_hex(const Input& input, const RunContext& context) {
-  // mutant: report-sha256
-  return hex_of(input.bytes(), context,
-                [&](std::size_t begin, std::size_t size) { input.done_with(begin, size); });
+  Sha256 hash(context);
+  hash.add(input);
+  return hash.hex();
 }
 
 }  // namespace ph::report

@@ -2,6 +2,7 @@
 """Parts computed by separate processes: compares the result of --join with the result of one
 process."""
 import csv
+import gzip
 import io
 import json
 import os
@@ -222,6 +223,23 @@ class Parts(PartsTest):
         self.assertEqual(os.listdir(self.path("folder")), ["image.2of2.ph"])
 
 
+    def test_resume_notices_a_data_file_and_a_slice(self):
+        header, data = files.two_files((3, 2, 2), [7, 5, 2, 4, 9, 1, 3, 8, 6, 0, 2, 2], "v.raw")
+        self.write("v.mhd", header)
+        self.write("v.raw", data)
+        os.mkdir(self.path("s"))
+        for k in range(2):
+            self.write(f"s/{k}.pgm", b"P5 3 2 255\n" + data[6 * k:6 * k + 6])
+        for arguments, changed in ((("v.mhd",), "v.raw"), (("--stack", "s"), "s/1.pgm")):
+            with self.subTest(arguments=arguments):
+                again = (*arguments, "--max-dim", "0", "--part", "1/1", "-o", "p.ph", "--resume")
+                self.expect(0, *again)
+                self.assertIn("already exists", self.expect(0, *again).stderr)
+                self.write(changed, self.read_bytes(changed)[:-1] + b"\x63")
+                os.utime(self.path(changed), (1, 1))
+                self.assertIn("is not the requested part", self.expect(0, *again).stderr)
+
+
 class Clouds(PartsTest):
     OPTIONS = ("--complex", "rips", "--max-dim", "0")
 
@@ -386,6 +404,20 @@ class Batches(PartsTest):
         with zipfile.ZipFile(self.path("b.npz"), "w") as archive:
             archive.writestr("p.npy", files.array((4, 2), [0, 0, 2, 0, 2, 2, 0, 2], "<f8"))
         self.assertIn("has bars of other data than b.npz:p has now", self.expect(0, *again).stderr)
+
+    def test_resume_notices_a_data_file(self):
+        nrrd = b"NRRD0004\ntype: uint8\ndimension: 2\nsizes: 3 2\nencoding: raw\ndata file: n.raw\n"
+        self.write("n.nhdr.gz", gzip.compress(nrrd))
+        self.write("n.raw", bytes([1, 2, 3, 4, 9, 6]))
+        header, data = files.two_files((3, 2), [0, 5, 2, 4, 9, 1], "v.raw")
+        self.write("v.mhd", header)
+        self.write("v.raw", data)
+        again = ("v.mhd", "n.nhdr.gz", "--part", "1/1", "-o", "m.ph", "--resume")
+        self.expect(0, *again)
+        self.assertIn("already exists", self.expect(0, *again).stderr)
+        for name, changed in (("v.mhd", "v.raw"), ("n.nhdr.gz", "n.raw")):
+            self.write(changed, self.read_bytes(changed)[:-1] + b"\7")
+            self.assertIn(f"has bars of other data than {name} has now", self.expect(0, *again).stderr)
 
 
 if __name__ == "__main__":

@@ -11,7 +11,7 @@ import unittest
 import xml.dom.minidom
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../support"))
-from program import SQUARE_CSV, main  # noqa: E402
+from program import SQUARE_CSV, files, main  # noqa: E402
 from report_reader import Report  # noqa: E402
 from report_test import ReportTest, circle  # noqa: E402
 
@@ -87,6 +87,24 @@ class Reports(ReportTest):
         self.assertIn("persistence", p["timings"])
         self.assertGreater(p["peak_memory"], 1e6)
         self.assertTrue(report.meta["program"].startswith("ph-barcode "))
+
+    def test_the_hash_is_that_of_all_files_that_were_read(self):
+        header, data = files.two_files((3, 2, 2), range(12), "v.raw")
+        self.write("v.mhd", header)
+        self.write("v.raw", data)
+        self.write("v.nhdr", b"NRRD0004\ntype: uint8\ndimension: 2\nsizes: 3 4\nencoding: raw\n"
+                   b"data file: v.raw\n")
+        slices = {f"s/{name}": b"P5 3 2 9\n" + bytes([k] * 6)
+                  for k, name in enumerate(("a2.pgm", "a10.pgm"))}
+        os.mkdir(self.path("s"))
+        for name, content in {**slices, "s/a1.txt": b"no slice"}.items():
+            self.write(name, content)
+        for arguments, parts in ((["v.mhd"], (header, data)),
+                                 (["v.nhdr"], (self.read_bytes("v.nhdr"), data)),
+                                 (["--stack", "s"], slices.values())):
+            with self.subTest(arguments=arguments):
+                found = self.report(*arguments).meta["provenance"]["input"]["sha256"]
+                self.assertEqual(found, hashlib.sha256(b"".join(parts)).hexdigest())
 
     def test_what_was_assumed_is_a_note(self):
         self.write("p.csv", "x,y\n0,0\n1,0\n")

@@ -124,6 +124,12 @@ Volume read_nrrd(const Input& input, const ReadOptions& options);
 /// names.
 Volume read_meta_image(const Input& input, const ReadOptions& options);
 
+/// The name of the file that holds the numbers of an NRRD file, if its header names one. @throws
+/// Error (bad_data) if the header is damaged.
+std::optional<std::string> nrrd_data_file(const Input& input);
+/// The same for a MetaImage.
+std::optional<std::string> meta_image_data_file(const Input& input);
+
 /// Reads an array of a VTI file, the images of VTK: the array that input.member() names, the only
 /// array, or the array that the file marks as its scalars.
 Volume read_vti(const Input& input, const ReadOptions& options);
@@ -139,6 +145,9 @@ struct Stack {
 /// @param format png, pgm or tiff, or automatic if the folder has pictures of only one of them.
 /// @throws Error (usage) for another format.
 Stack read_stack(const Input& folder, Format format, const ReadOptions& options);
+/// The names of the slices in a folder, in their order. The parameters and errors are those of
+/// read_stack.
+std::vector<std::string> slices_in(const Input& folder, Format format);
 
 /// The type of a DIPHA file, which is the number after the magic number.
 enum class DiphaType : std::int64_t {

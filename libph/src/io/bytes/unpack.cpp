@@ -182,6 +182,12 @@ std::size_t likely_size(const Packed& packed) {
 
 }  // namespace
 
+std::string unpacked_start(std::string_view packed, std::size_t most) {
+  std::string start(most, '\0');
+  start.resize(Inflater(packed, 15 + 16).unpack(start.data(), most));
+  return start;
+}
+
 std::pmr::vector<char> unpack(const Packed& packed, std::size_t most) {
   std::pmr::vector<char> bytes(memory_of(packed.input));
   bytes.reserve(std::min(likely_size(packed), most));

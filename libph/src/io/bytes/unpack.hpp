@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <memory_resource>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -28,6 +29,10 @@ struct Packed {
   std::size_t offset = 0;
   std::size_t size = 0;  ///< the unpacked size that the file states, which may be false
 };
+
+/// The first bytes of the content of a gzip file, at most `most`. Damaged data end early.
+/// @param packed the first bytes of the file, or all of them.
+std::string unpacked_start(std::string_view packed, std::size_t most);
 
 /// Unpacks data.
 /// @param most the largest unpacked size that is allowed, even for a small file.

@@ -78,6 +78,13 @@ class MetaImage {
  public:
   MetaImage(const Input& input, const ReadOptions& options) : header_(input), options_(options) {}
 
+  /// The name of the file of the data, if the data are not in the file of the header.
+  std::optional<std::string> data_file() {
+    read_fields();
+    if (volume_.file == nullptr) return std::nullopt;
+    return std::string(volume_.file->value);
+  }
+
   Volume read() {
     read_fields();
     if (const HeaderField* const kind = find("ObjectType"); kind && kind->value != "Image")
@@ -229,6 +236,10 @@ bool is_meta_image(const Input& input) {
 
 Volume read_meta_image(const Input& input, const ReadOptions& options) {
   return MetaImage(input, options).read();
+}
+
+std::optional<std::string> meta_image_data_file(const Input& input) {
+  return MetaImage(input, {}).data_file();
 }
 
 }  // namespace ph::detail

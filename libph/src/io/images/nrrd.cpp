@@ -126,6 +126,13 @@ class Nrrd {
  public:
   Nrrd(const Input& input, const ReadOptions& options) : header_(input), options_(options) {}
 
+  /// The name of the file of the data, if the data are not in the file of the header.
+  std::optional<std::string> data_file() {
+    read_fields();
+    if (volume_.file == nullptr) return std::nullopt;
+    return std::string(volume_.file->value);
+  }
+
   Volume read() {
     read_fields();
     const auto axes =
@@ -386,6 +393,10 @@ bool is_nrrd(const Input& input) { return input.text().starts_with(kNrrdMagic); 
 
 Volume read_nrrd(const Input& input, const ReadOptions& options) {
   return Nrrd(input, options).read();
+}
+
+std::optional<std::string> nrrd_data_file(const Input& input) {
+  return Nrrd(input, {}).data_file();
 }
 
 }  // namespace ph::detail

@@ -252,4 +252,8 @@ Stack read_stack(const Input& folder, Format format, const ReadOptions& options)
   return {StackReader(folder, slices, options).read(), slices.kind().format, slices.kind().name};
 }
 
+std::vector<std::string> slices_in(const Input& folder, Format format) {
+  return Slices(folder, format, {}).names();
+}
+
 }  // namespace ph::detail
