@@ -119,7 +119,7 @@ void require_separate(const std::vector<Places>& all, const Job& job, app::Sessi
   app::InputFiles inputs;
   std::vector<app::Written> outputs;
   for (const Places& places : all) {
-    inputs.add(places.input);
+    inputs.add(places.input, job.reading.format);
     if (job.results.dry_run) continue;
     if (places.format != BarcodeFormat::none) outputs.push_back({"--output", places.output});
     for (const app::Plot& plot : places.plots) outputs.push_back({plot.option, plot.path});

@@ -129,7 +129,7 @@ Outcome run_batch_part(const std::vector<std::string>& inputs, const Job& job,
   const auto [part, parts] = *job.sharing.part;
   const std::string path = part_path(job.places.output, "part", part, parts);
   app::InputFiles read;
-  for (const std::string& input : inputs) read.add(input);
+  for (const std::string& input : inputs) read.add(input, job.reading.format);
   app::require_separate(read, std::array{app::Written{"--output", path}}, job.common.force);
   const InputsPart::Whole whole{inputs, job.sharing.typed_options, parts};
   if (job.sharing.resumes && is_there(path, whole, part, job, session))

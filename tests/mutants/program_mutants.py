@@ -69,6 +69,7 @@ MUTANTS = [
         ("files: what --camera reads may be replaced", "file-camera", ", a.image.calibration_file()", ""),
         ("files: frames of a list are inputs in their turn only", "file-frames", ""),
         ("files: frames of a pipe may be replaced by --json", "file-frame-json", ""),
+        ("files: a data file may be replaced", "file-further", ""),
         ("files: --json of a stream may be the file of a frame", "file-stream-json", ""),
         ("files: the table may go to an input", "file-table", "(a)", "(a) && outputs.size() > 99"),
     ], targets=["ph-barcode", "ph-segment"]),

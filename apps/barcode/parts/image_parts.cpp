@@ -103,7 +103,7 @@ Outcome run_image_part(const std::string& input, const Job& job, app::Session& s
   if (job.sharing.resumes && kept_image_part(path, read, part, parts, session))
     return {app::kOk, fmt::format("{} already exists", path)};
   app::InputFiles inputs;
-  inputs.add(input);
+  inputs.add(input, job.reading.format);
   app::require_separate(inputs, std::array{app::Written{"--output", path}}, job.common.force);
   app::Output output(path);
   const ImagePart made = [&] {

@@ -29,7 +29,7 @@ int run_ranks(const Job& job, Transport& transport, const std::function<void()>&
   own.places.input = path;
   own.places.format = format;
   app::InputFiles inputs;
-  inputs.add(path);
+  inputs.add(path, job.reading.format);
   std::vector<app::Written> written{{"--output", job.places.output}};
   for (const app::Plot& plot : job.places.plots) written.push_back({plot.option, plot.path});
   app::require_separate(inputs, written, job.common.force);

@@ -8,6 +8,7 @@
 
 #include "apps/common/system/process.hpp"
 #include "ph/detail/core/files.hpp"
+#include "ph/detail/io/further_files.hpp"
 #include "ph/detail/io/reader.hpp"
 #include "ph/error.hpp"
 
@@ -58,8 +59,15 @@ std::optional<FileIdentity> identity_of(const std::string& path, int standard_de
 
 }  // namespace
 
-void InputFiles::add(const std::string& path) {
+void InputFiles::add(const std::string& path, Format format) {
   if (path.empty()) return;
+  add_file(path);
+  // mutant: file-further
+  for (const fs::path& file : detail::further_files(files::path_of(path), format))
+    add_file(file.string());
+}
+
+void InputFiles::add_file(const std::string& path) {
   // mutant: file-in-archive
   const std::string whole = split_member(files::path_of(path)).first.string();
   if (auto file = identity_of(whole, files::kStandardInput, Harm::lost); file && file->name.empty())

@@ -9,6 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include "ph/io/read.hpp"
+
 namespace ph::app {
 
 /// A file that a program writes, and the option that requests it, such as "--report".
@@ -29,16 +31,21 @@ struct FileIdentity {
 /// The inputs of a run, which no output may replace.
 class InputFiles {
  public:
+  /// Adds a file and the files that are read together with it, such as the data file of a header,
+  /// or the slices in a folder.
   /// @param path as in Input::open. "-" stands for the source of standard input, and
-  /// "FILE.npz:NAME" is a part of FILE.npz. A path that is not a file is ignored, because an output
-  /// cannot destroy its content.
-  void add(const std::string& path);
+  /// "FILE.npz:NAME" is a part of FILE.npz. Anything else than a file or a folder is ignored,
+  /// because an output cannot destroy its content.
+  /// @param format the format in which the input is read.
+  void add(const std::string& path, Format format = Format::automatic);
   /// @throws Error (usage), such as "--output: a.csv is the input ./a.csv; …".
   void require_other(const Written& output) const;
   /// The input that an output would replace, or null if it would replace no input.
   const std::string* replaced_by(const std::string& output) const;
 
  private:
+  void add_file(const std::string& path);
+
   std::map<FileIdentity, std::string> paths_;
 };
 

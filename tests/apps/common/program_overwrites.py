@@ -10,7 +10,7 @@ import zipfile
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../support"))
 from option_inputs_segment import CAMERA, FOCAL, HEIGHT, WIDTH, depth_png, depths, pcd, points_of  # noqa: E402
-from files import RGB, array, png  # noqa: E402
+from files import RGB, array, png, two_files  # noqa: E402
 from program import FolderTest, has_page  # noqa: E402
 
 BARCODE = SEGMENT = None
@@ -87,6 +87,29 @@ class Overwrites(FolderTest):
                 os.symlink("scan.npz", self.path("link.svg"))
             with self.subTest(arguments=arguments):
                 self.refused(BARCODE, option, ["scan.npz", "a.npz", "h.ply"], *arguments)
+
+    def test_data_files_and_slices_are_inputs(self):
+        header, data = two_files((3, 2), [0, 5, 2, 4, 9, 1], "v.raw")
+        os.mkdir(self.path("slices"))
+        inputs = {"v.mhd": header, "v.raw": data, "slices/1.pgm": b"P5 3 2 9\n" + data,
+                  "slices/2.pgm": b"P5 3 2 9\n" + data, "w.mhd": header}
+        for name, content in inputs.items():
+            self.write(name, content)
+        stack = ["--stack", "slices"]
+        for option, arguments in (("--output", ["v.mhd", "-o", "hard-v.raw"]),
+                                  ("--output", ["v.mhd", "-o", "folder/../v.raw"]),
+                                  ("--output", ["v.mhd", "--part", "1/1", "-o", "link-v.raw"]),
+                                  ("--output", ["v.mhd", "w.mhd", "--part", "1/1", "-o", "v.raw"]),
+                                  ("--output", ["folder/../v.mhd", "--dims", "0", "-o", "v.raw"]),
+                                  ("--output", [*stack, "-o", "slices/2.pgm"]),
+                                  ("--output", [*stack, "--max-dim", "0", "--part", "1/1", "-o",
+                                                "slices/1.pgm"])):
+            with self.subTest(arguments=arguments):
+                self.refused(BARCODE, option, inputs, *arguments)
+        run = self.run_in_folder(BARCODE, *stack, "-o", "slices/bars.csv")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        run = self.run_in_folder(BARCODE, "v.mhd", "-o", "v.raw", "--force")
+        self.assertEqual((run.returncode, self.read_bytes("v.raw")[:4]), (0, b"dim,"), run.stderr)
 
     def test_standard_input_is_an_input(self):
         self.write("p.csv", POINTS)
