@@ -253,7 +253,8 @@ int run_all(const Job& given, app::Session& session) {
   // JSON and the report show cells.
   job.question.options.cells = format == BarcodeFormat::json || !job.places.report.empty();
   require_room(format, job);
-  const std::vector<std::string> inputs = job.is_batch() ? with_files_of_folders(job) : job.inputs;
+  const std::vector<std::string> inputs =
+      job.is_batch() ? inputs_of_batch(job, session) : job.inputs;
   std::vector<Places> all = places_of(job, inputs, format);
   require_separate(all, job, session);
   explain_unwritten(job, format, session);

@@ -41,8 +41,9 @@ Outcome run_batch_part(const std::vector<std::string>& inputs, const Job& job,
 Outcome join_batch_parts(const std::vector<PartFile>& files, const Places& places,
                          app::Session& session);
 
-/// The inputs, with each folder replaced by its files.
+/// The inputs, with each folder replaced by its files. The data file of a header that is also an
+/// input is left out, with a note.
 /// @throws Error (no_input) if a folder has no file of a known format.
-std::vector<std::string> with_files_of_folders(const Job& job);
+std::vector<std::string> inputs_of_batch(const Job& job, app::Session& session);
 
 }  // namespace ph::barcode

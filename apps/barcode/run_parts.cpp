@@ -34,7 +34,7 @@ int run_part(const Job& job, app::Session& session) {
   const Outcome outcome = job.wants_image_part() ? run_image_part(input, job, session)
                           : job.wants_part_of_one()
                               ? run_cloud_part(input, job, session)
-                              : run_batch_part(with_files_of_folders(job), job, session);
+                              : run_batch_part(inputs_of_batch(job, session), job, session);
   session.note(outcome.summary);
   if (barcode_format_of_path(job.places.output))
     session.note(fmt::format("{}: contains a part despite its name; --join makes bars from parts",

@@ -11,7 +11,7 @@ import unittest
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../support"))
 import program  # noqa: E402
-from program import SQUARE, SQUARE_CSV, ProgramTest, main  # noqa: E402
+from program import SQUARE, SQUARE_CSV, ProgramTest, files, main  # noqa: E402
 
 
 class Batch(ProgramTest):
@@ -72,6 +72,24 @@ class Batch(ProgramTest):
         self.assertEqual(self.outputs(), ["square.csv", "stdin.csv"])
         self.assertEqual(self.read("out/stdin.csv"), SQUARE_CSV)
         self.expect(64, "-", "square.txt", "-", "-o", "out/", input=SQUARE)
+
+    def test_a_data_file_is_no_input_of_its_own(self):
+        os.mkdir(self.path("in"))
+        for name in ("a", "b"):
+            header, data = files.two_files((3, 2), [0, 5, 2, 4, 9, 1], f"{name}.raw")
+            self.write(f"in/{name}.mhd", header)
+            self.write(f"in/{name}.raw", data)
+        lines = self.batch(0, "in", "-o", "out/")
+        self.assertEqual(self.outputs(), ["a.csv", "b.csv"])
+        self.assertEqual(sum("in/a.raw: not an input of its own" in line for line in lines), 1)
+        self.batch(0, "in/a.mhd", "in/b.mhd", "in/./a.raw", "-o", "few/")
+        self.assertEqual(self.outputs("few"), ["a.csv", "b.csv"])
+        self.expect(0, "in", "--part", "1/1", "-o", "p.ph")
+        # A file that no header among the inputs names is an input. With --raw-shape, headers are
+        # raw files as well.
+        self.assertIn("in/b.raw", "".join(self.batch(65, "in/a.mhd", "in/b.raw", "-o", "two/")))
+        self.batch(0, "in/a.raw", "in/b.raw", "--raw-shape", "2,3", "-o", "raw/")
+        self.assertEqual(self.outputs("raw"), ["a.csv", "b.csv"])
 
     def test_same_names(self):
         for folder in ("a", "b", "a/c"):
