@@ -62,8 +62,12 @@ class TopGraph : public TopNodes<StarGrid, 3> {
   static int exit_of_square(int edge) { return 3 - axis_of_edge(edge); }
   /// The word that encodes the arrows of the top cells in a voxel's star (see
   /// for_each_inner_arrow).
-  template <class ExitOf>
-  std::uint32_t arrow_word(unsigned cells, ExitOf&& exit_of) const;
+  template <class Directions, class ExitOf>
+  static std::uint32_t arrow_word(unsigned cells, const Directions& directions, ExitOf&& exit_of);
+  /// The words of all sets of squares in a star of an image with two axes. They are made once, on
+  /// first use, because making them takes longer than a small image takes.
+  using SquareWords = std::array<std::uint32_t, 1 << kSquareCount>;
+  static const SquareWords& square_words();
   /// True if a top cell and the two cells beside it along the axis lie between consecutive voxels.
   /// @param low the coordinate of the cell's first voxel.
   bool is_inner(int axis, std::uint32_t low) const {
@@ -86,18 +90,12 @@ void TopGraph::for_each_inner_arrow(std::uint32_t first_row, std::uint32_t end_r
     const std::uint32_t u = bit / 3, a = bit % 3;
     offset[bit] = (u >> a & 1U) != 0 ? stride_[a] : 0 - stride_[a];
   }
-  std::vector<std::uint32_t> word_of_squares(has_cubes() ? 0 : 1 << kSquareCount);
-  for (std::uint32_t squares = 0; squares < word_of_squares.size(); ++squares) {
-    const StarTables& tables = star_tables(0);
-    const std::uint32_t star = squares << kSquareShift;
-    word_of_squares[squares] = arrow_word(
-        tables.edge_squares(star), [&](int s) { return exit_of_square(tables.edge_of(star, s)); });
-  }
+  const SquareWords* const of_squares = has_cubes() ? nullptr : &square_words();
   const auto word_of = [&](std::uint32_t v) {
     const std::uint32_t star = grid_.star(v);
-    if (!has_cubes()) return word_of_squares[StarTables::squares(star)];
+    if (of_squares != nullptr) return (*of_squares)[StarTables::squares(star)];
     const CubePairs pairs = grid_.pair_cubes(v);
-    return arrow_word(StarTables::cubes(star) & ~pairs.critical_cubes(),
+    return arrow_word(StarTables::cubes(star) & ~pairs.critical_cubes(), kCubes,
                       [&](int c) { return pairs.exit(c); });
   };
   // The words of a row and of the preceding rows that share cells with it.
@@ -129,12 +127,12 @@ void TopGraph::for_each_inner_arrow(std::uint32_t first_row, std::uint32_t end_r
   }
 }
 
-template <class ExitOf>
-std::uint32_t TopGraph::arrow_word(unsigned cells, ExitOf&& exit_of) const {
+template <class Directions, class ExitOf>
+std::uint32_t TopGraph::arrow_word(unsigned cells, const Directions& directions, ExitOf&& exit_of) {
   std::uint32_t word = 0;
   for (; cells != 0; cells &= cells - 1) {
     const int n = std::countr_zero(cells);
-    const Direction d = root_direction(static_cast<std::uint32_t>(n));
+    const Direction d = directions[static_cast<std::size_t>(n)];
     const unsigned u = (d[0] < 0 ? 1U : 0U) | (d[1] < 0 ? 2U : 0U) | (d[2] < 0 ? 4U : 0U);
     word |= 1U << (3 * u + static_cast<unsigned>(exit_of(n)));
   }
