@@ -48,13 +48,14 @@ def test_distances_need_no_scikit_learn():
         print(ripser(d, distance_matrix=True)["dgms"][0].tolist())
         print(ripser_parallel(d, metric="precomputed")["dgms"][0].tolist())
         Rips(verbose=False).transform(d, distance_matrix=True)
-        for call in (lambda: ripser(d[:, :1]), lambda: ripser_parallel(d)):
+        print(ripser(np.array([[0.0], [1.0]]))["dgms"][0].tolist())
+        for call in (lambda: ripser(d[:, :1], metric="cosine"), lambda: ripser_parallel(d)):
             try:
                 call()
             except libph.NotBuiltIn as error:
                 print("scikit-learn" in str(error))
     """
-    assert run(code).split("\n")[:-1] == 2 * ["[[0.0, 1.0], [0.0, inf]]"] + 2 * ["True"]
+    assert run(code).split("\n")[:-1] == 3 * ["[[0.0, 1.0], [0.0, inf]]"] + 2 * ["True"]
 
 
 def test_install():

@@ -125,6 +125,20 @@ def test_points_are_measured_by_scikit_learn(rng):
         assert same(found["dgms"], of_matrix(mirrored)["dgms"])
 
 
+def test_euclidean_distances_have_the_digits_of_scikit_learn(rng):
+    from sklearn.metrics import pairwise_distances
+    for rows, columns in ((1, 1), (2, 5), (10, 2), (33, 3), (100, 50), (300, 7)):
+        points = rng.normal(size=(2 * rows, columns)) * 10.0**rng.integers(-8, 9)
+        repeated = np.repeat(points[:rows], 2, axis=0)
+        for data in (points, points[::2], np.asfortranarray(points), points.astype(np.float32),
+                     repeated, np.round(repeated).astype(int), points > 0, points[:, ::-1]):
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")
+                found = ripser(data, maxdim=0)["dperm2all"]
+            expected = pairwise_distances(data)
+            assert found.dtype == expected.dtype and np.array_equal(found, expected)
+
+
 def test_n_perm(rng):
     points = rng.random((40, 2))
     distances = squareform(pdist(points))
