@@ -55,7 +55,8 @@ Bars barcode(const Recipe& recipe, const Task& task, const RunOptions& options) 
 /// The barcode of each recipe. Task i belongs to recipe i.
 std::vector<Bars> barcodes(const std::vector<const Recipe*>& recipes,
                            const std::vector<Task>& tasks, const RunOptions& options) {
-  return run(options, false, [&](const RunContext& context) {
+  const bool is_short = recipes.size() == 1 && recipes[0]->is_short(tasks[0].options);
+  return run(options, is_short, [&](const RunContext& context) {
     std::vector<Bars> all(recipes.size());
     for_each_input(recipes.size(), context, [&](std::size_t i, const RunContext& of_input) {
       all[i] = compute(*recipes[i], tasks[i], of_input);
