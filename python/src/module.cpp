@@ -12,7 +12,9 @@ PYBIND11_MODULE(_core, m) {
   bind_run(m);
   bind_arrays(m);
   bind_metric_spaces(m);
+  bind_flags(m);
   bind_bars(m);
+  bind_layouts(m);
   bind_complexes(m);
   bind_alpha(m);
   bind_computations(m);

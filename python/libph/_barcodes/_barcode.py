@@ -21,6 +21,7 @@ from ._output import Output
 _BAR = np.dtype({"names": ["dim", "birth", "death"], "formats": ["i4", "f8", "f8"],
                  "offsets": [0, 8, 16], "itemsize": 24})
 _STATE_VERSION = 1
+_MOST_DIM = 2**31 - 1  # of _core
 _Arrays = tuple[NDArray[np.int64], NDArray[np.float64], NDArray[np.float64]]
 
 
@@ -119,13 +120,7 @@ class Barcode(Cells, Summaries, Output, Sequence[Bar]):
     def _of(cls, bars: _core.Bars, meta: Mapping[str, Any]) -> Barcode:
         """The barcode of bars of _core. The facts found during the computation are added to
         `meta`."""
-        facts = bars.facts
-        known = {"max_dim": facts.max_dim, "threshold": facts.threshold, "engine": facts.engine,
-                 "collapsed": facts.collapses or None, "vertices": facts.vertices,
-                 "edges": facts.edges, "covering_radius": facts.covering_radius,
-                 "hidden": facts.hidden or None,
-                 "version": _core.version}
-        return cls._made(bars, {**meta, **{k: v for k, v in known.items() if v is not None}})
+        return cls._made(bars, {**meta, **bars.facts, "version": _core.version})
 
     @classmethod
     def _made(cls, bars: _core.Bars, meta: Mapping[str, Any]) -> Barcode:
@@ -235,7 +230,7 @@ class Barcode(Cells, Summaries, Output, Sequence[Bar]):
     def _top_dim(self) -> int:
         """The highest dimension that was requested or that has a bar."""
         known: int = self.meta.get("max_dim", -1)
-        return max(known, int(self.dims[-1])) if len(self) else known
+        return max(known, self._bars.top_dim)
 
     def dgm(self, dim: int) -> NDArray[np.float64]:
         """The bars of one dimension, as a new array of rows birth, death.
@@ -244,11 +239,7 @@ class Barcode(Cells, Summaries, Output, Sequence[Bar]):
         array([[ 0.,  1.],
                [ 0., inf]])
         """
-        places = self._range(_options.whole("dim", dim, 0))
-        rows = np.empty((places.stop - places.start, 2))
-        rows[:, 0] = self.births[places]
-        rows[:, 1] = self.deaths[places]
-        return rows
+        return np.asarray(self._bars.dgm(min(_options.whole("dim", dim, 0), _MOST_DIM)))
 
     def dgms(self) -> list[NDArray[np.float64]]:
         """A list with the `dgm` of every dimension."""

@@ -9,9 +9,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .. import _arrays, _options
+from .. import _arrays, _core, _options
 from .._errors import DataError, UsageError
-from .._vectors import lengths
 
 if TYPE_CHECKING:
     from ._barcode import Barcode
@@ -32,8 +31,7 @@ def in_layout(bars: Barcode, layout: str) -> Any:
         return [dgm[np.lexsort((-dgm[:, 1], -dgm[:, 0]) if dim else (dgm[:, 0], dgm[:, 1]))]
                 for dim, dgm in enumerate(dgms)]
     if layout == "gudhi":
-        order = np.lexsort((births, -lengths(births, deaths), -dims))
-        return [(int(dims[i]), (float(births[i]), float(deaths[i]))) for i in order]
+        return _core.listed(bars._bars)
     return np.asarray(bars)
 
 

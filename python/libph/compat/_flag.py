@@ -15,7 +15,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
-from .. import _arrays, _core, _options
+from .. import _arrays, _core, _options, _run
 from .._barcodes import Barcode
 from .._compute import rips
 from .._errors import DataError, UsageError
@@ -29,7 +29,7 @@ class Flag(NamedTuple):
     """A flag filtration, up to a limit beyond which only components count."""
 
     size: int
-    births: NDArray[np.float64]
+    births: NDArray[np.float64] | None  # None: all are 0
     matrix: NDArray[Any] | None  # distances above the diagonal; all numbers are at least 0
     pairs: tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.float64]] | None  # i < j, value
     limit: float
@@ -54,11 +54,11 @@ class Bars(NamedTuple):
 
     barcode: Barcode
     dgms: list[NDArray[np.float64]]  # rounded, without bars of length zero
-    places: list[NDArray[np.int64]]  # in `barcode`
+    blocks: list[_core.Block]
 
-    def places_in_dim(self, dim: int) -> NDArray[np.int64]:
-        """Indices among the bars of a dimension."""
-        return self.places[dim] - np.searchsorted(self.barcode.dims, dim)
+    def places(self, dim: int) -> NDArray[np.int64]:
+        """The indices of the bars of a dimension in `barcode`."""
+        return np.asarray(self.blocks[dim])
 
 
 # ---- numbers
@@ -91,33 +91,13 @@ def last_rounded_to(limit: float, dtype: np.dtype[Any]) -> float:
     >>> last_rounded_to(1.0, np.dtype(np.float32)) - 1.0 == 2.0 ** -24
     True
     """
-    if dtype == np.float64 or not np.isfinite(limit):
-        return limit
-    with np.errstate(over="ignore"):
-        low = np.float32(limit)
-        high = np.nextafter(low, np.float32(np.inf))
-        middle = (float(low) + float(high)) / 2 if np.isfinite(high) else float(low)
-        return middle if np.float32(middle) <= low else float(np.nextafter(middle, -np.inf))
+    return _core.last_rounded_to(limit) if dtype == np.float32 else limit
 
 
-def rounded(numbers: NDArray[np.float64], dtype: np.dtype[Any]) -> NDArray[np.float64]:
-    """Doubles that this type can represent."""
-    if dtype == np.float64:
-        return numbers
-    with np.errstate(over="ignore"):
-        return numbers.astype(np.float32).astype(np.float64)
-
-
-def ordered(dgm: NDArray[np.float64], dim: int, essential_last: bool = False) -> NDArray[np.int64]:
-    """The order of Ripser: H0 by death; others by descending birth, then descending death.
-
-    With `essential_last`, bars that never die follow the others.
-    """
+def ordered(dgm: NDArray[np.float64], dim: int) -> NDArray[np.int64]:
+    """The order of Ripser: H0 by death; others by descending birth, then descending death."""
     births, deaths = dgm.T
-    keys: tuple[NDArray[Any], ...] = (births, deaths) if dim == 0 else (-deaths, -births)
-    if essential_last and dim > 0:
-        keys += (np.isinf(deaths),)
-    return np.asarray(np.lexsort(keys))
+    return np.asarray(np.lexsort((births, deaths) if dim == 0 else (-deaths, -births)))
 
 
 # ---- filtrations of matrices
@@ -141,24 +121,25 @@ def of_dense(matrix: Any, limit: float, dtype: np.dtype[Any], is_symmetric: bool
     array = _arrays.as_distances(matrix, "X")
     if array.ndim != 2:
         raise UsageError(f"X: found an array of shape {array.shape}, expected a square matrix")
+    wrong, i, j, has_births, is_plain, limit, edges = _run.run(
+        _core.flag_facts, array, births, limit, dtype == np.float32, is_symmetric, options={})
+    if wrong == "birth":
+        raise DataError(f"X: the diagonal: entry {i}: found nan, expected a number")
+    if wrong == "nan":
+        raise DataError(f"X: row {i}, column {j}: found nan, expected a number")
+    if wrong == "unequal":
+        raise DataError(f"X: row {i}, column {j}: found {array[i, j]}, but {array[j, i]} in row "
+                        f"{j}, column {i}; expected both equal")
+    n = len(array)
+    if is_plain and not has_births:
+        return Flag(n, None, array, None, limit, edges)
     if births is None:
         births = np.array(np.diagonal(array), dtype=np.float64)
-    _refuse_nan(births, "X: the diagonal")
-    least, radius = _scan(array, is_symmetric)
-    latest = float(births.max(initial=0.0))
-    edges = _count(array, limit) if limit < np.inf or births.any() else None
-    if limit == np.inf:
-        # Beyond this radius, all points are joined to one point, and there is a single component.
-        limit = max(radius, latest) if latest < np.inf else np.inf
-        limit = last_rounded_to(limit, dtype)
-    n = len(array)
-    if edges is None:
-        edges = _count(array, limit)
-    if least >= 0 and births.min(initial=0.0) >= 0 and latest <= limit and latest < np.inf:
+    if is_plain:
         return Flag(n, births, array, None, limit, edges)
-    i, j = (np.concatenate(parts) for parts in zip(*_joined(array, limit)))
-    values = np.asarray(array[i, j], dtype=np.float64)
-    return Flag(n, births, None, (i, j, values), limit, edges)
+    u, v = (np.concatenate(parts) for parts in zip(*_joined(array, limit)))
+    values = np.asarray(array[u, v], dtype=np.float64)
+    return Flag(n, births, None, (u, v, values), limit, edges)
 
 
 def of_sparse(matrix: Any, limit: float, size: int, upper_wins: bool,
@@ -197,79 +178,6 @@ def _rounding_of(values: NDArray[np.float64]) -> float:
     return _ROUNDING * float(np.abs(values[np.isfinite(values)]).max(initial=0.0))
 
 
-def _refuse_nan(numbers: NDArray[Any], name: str) -> None:
-    if np.isnan(numbers).any():
-        raise DataError(f"{name}: entry {int(np.argmax(np.isnan(numbers)))}: found nan, expected a "
-                        "number")
-
-
-def _strips(array: NDArray[Any]) -> Any:
-    """Yields the part above the diagonal, some rows at a time. Each item has the first row and the
-    last; the square on the diagonal, whose upper triangle is mirrored and whose diagonal is 0; and
-    the block to the right of this square."""
-    for begin in range(0, len(array), _STRIP):
-        end = min(begin + _STRIP, len(array))
-        corner = np.triu(array[begin:end, begin:end], 1)
-        corner += corner.T
-        yield begin, end, corner, array[begin:end, end:]
-
-
-def _scan(array: NDArray[Any], is_symmetric: bool) -> tuple[float, float]:
-    """The least number, at most 0, and the enclosing radius. Refuses NaN and asymmetry."""
-    n = len(array)
-    least = 0.0 if is_symmetric else float(array.min(initial=0.0))
-    farthest = np.zeros(n, dtype=array.dtype)
-    worst = _Unequal(0.0, 0, 0)
-    for begin, end, corner, right in _strips(array):
-        least = min(least, float(corner.min()), float(right.min(initial=0.0)))
-        here = farthest[begin:end]
-        np.maximum(here, corner.max(axis=1), out=here)
-        np.maximum(here, right.max(axis=1, initial=0.0), out=here)
-        np.maximum(farthest[end:], right.max(axis=0, initial=0.0), out=farthest[end:])
-        if is_symmetric:
-            square = array[begin:end, begin:end]
-            worst = max(worst, _unequal(corner, square, begin, begin),
-                        _unequal(right, array[end:, begin:end].T, begin, end))
-    if np.isnan(farthest).any():
-        i = int(np.argmax(np.isnan(farthest)))
-        j = int(np.argmax(np.isnan(array[i, i + 1:]))) + i + 1
-        raise DataError(f"X: row {i}, column {j}: found nan, expected a number")
-    largest = float(farthest[np.isfinite(farthest)].max(initial=0.0))
-    if worst.size > _ROUNDING * max(largest, -least if np.isfinite(least) else 0.0):
-        i, j = worst.i, worst.j
-        raise DataError(f"X: row {i}, column {j}: found {array[i, j]}, but {array[j, i]} in row "
-                        f"{j}, column {i}; expected both equal")
-    return least, float(farthest.min(initial=np.inf)) if n else 0.0
-
-
-class _Unequal(NamedTuple):
-    size: float
-    i: int
-    j: int
-
-
-def _unequal(upper: NDArray[Any], lower: NDArray[Any], row: int, column: int) -> _Unequal:
-    """The pair whose entries differ most; the diagonal does not count."""
-    differ = upper != lower
-    if row == column:
-        np.fill_diagonal(differ, False)
-    if not differ.any():
-        return _Unequal(0.0, 0, 0)
-    with np.errstate(invalid="ignore", over="ignore"):
-        sizes = np.where(differ, np.abs(upper - lower), 0)
-    sizes[np.isnan(sizes)] = np.inf
-    place = np.unravel_index(int(np.argmax(sizes)), sizes.shape)
-    i, j = sorted((int(place[0]) + row, int(place[1]) + column))
-    return _Unequal(float(sizes.max()), i, j)
-
-
-def _count(array: NDArray[Any], limit: float) -> int:
-    """The number of pairs with at most this value."""
-    return sum((int(np.count_nonzero(corner <= limit)) - (end - begin) * (limit >= 0)) // 2
-               + int(np.count_nonzero(right <= limit))
-               for begin, end, corner, right in _strips(array))
-
-
 def _joined(array: NDArray[Any], limit: float) -> Any:
     """Rows and columns of the pairs that are joined, some rows at a time."""
     yield np.empty(0, dtype=np.int64), np.empty(0, dtype=np.int64)
@@ -292,7 +200,7 @@ def compute(flag: Flag, max_dim: int, dtype: np.dtype[Any], essential_last: bool
         # The transpose of the array, because the part below its diagonal is read.
         space = _core.MetricSpace.of_distances(flag.matrix.T, "lower", "error", False)
     else:
-        assert flag.pairs is not None
+        assert births is not None and flag.pairs is not None
         i, j, values = flag.pairs
         if min(values.min(initial=0.0), births.min(initial=0.0)) < 0 or np.isinf(births).any():
             # libph has no negative distances and no births at inf. Bars depend only on the order of
@@ -301,26 +209,17 @@ def compute(flag: Flag, max_dim: int, dtype: np.dtype[Any], essential_last: bool
             births, values = np.split(ranks.astype(np.float64), [len(births)])
         limit = np.inf
         space = _core.MetricSpace.of_pairs(flag.size, i, j, np.ascontiguousarray(values))
-    source = Source(space, flag.size, None, births if births.any() else None)
+    source = Source(space, flag.size, None, births if births is not None and births.any() else None)
     barcode = rips(source, max_dim=max_dim, threshold=None if limit == np.inf else limit, **options)
     return bars_of(barcode, max_dim, dtype, essential_last, levels)
 
 
 def bars_of(barcode: Barcode, max_dim: int, dtype: np.dtype[Any], essential_last: bool = False,
             levels: NDArray[np.float64] | None = None) -> Bars:
-    """A barcode, rounded and in the order of `ordered`; ranks are mapped back to `levels`."""
-    dgms, places = [], []
-    for dim in range(max_dim + 1):
-        dgm = barcode.dgm(dim)
-        if levels is not None:
-            is_finite = np.isfinite(dgm)
-            dgm[is_finite] = levels[dgm[is_finite].astype(np.int64)]
-        dgm = rounded(dgm, dtype)
-        order = ordered(dgm, dim, essential_last)
-        order = order[dgm[order, 0] != dgm[order, 1]]
-        dgms.append(dgm[order])
-        places.append(order + np.searchsorted(barcode.dims, dim))
-    return Bars(barcode, dgms, places)
+    """A barcode, rounded and in the order of `ordered`; ranks are mapped back to `levels`. With
+    `essential_last`, bars above H0 that never die follow the others."""
+    found = _core.ripser_dgms(barcode._bars, max_dim, dtype == np.float32, essential_last, levels)
+    return Bars(barcode, [np.asarray(dgm) for dgm, _ in found], [places for _, places in found])
 
 
 def youngest_edges(values_of: Any, simplices: NDArray[np.int64]) -> NDArray[np.int64]:

@@ -110,7 +110,7 @@ def ripser(X: Any, maxdim: int = 1, thresh: float = np.inf, coeff: int = 2,
     cocycles: list[list[NDArray[np.int64]]] = [[] for _ in bars.dgms]
     if chains:
         for dim in range(1, max_dim + 1):
-            cocycles[dim] = [_cocycle(bars, place, coeff, points) for place in bars.places[dim]]
+            cocycles[dim] = [_cocycle(bars, place, coeff, points) for place in bars.places(dim)]
     return {"dgms": bars.dgms, "cocycles": cocycles, "num_edges": flag.edges, "dperm2all": to_all,
             "idx_perm": points, "r_cover": covering}
 

@@ -94,6 +94,31 @@ py::tuple loops_of(const Bars& bars, std::int64_t i) {
   return py::make_tuple(loops, all.tightness);
 }
 
+/// The facts about the computation under the names that `Barcode.meta` gives them.
+py::dict facts_of(const Bars& bars) {
+  const Facts& facts = bars.facts;
+  py::dict named;
+  named["max_dim"] = facts.max_dim;
+  if (facts.threshold) named["threshold"] = *facts.threshold;
+  named["engine"] = facts.engine;
+  if (facts.collapses) named["collapsed"] = true;
+  if (facts.vertices) named["vertices"] = *facts.vertices;
+  if (facts.edges) named["edges"] = *facts.edges;
+  if (facts.covering_radius) named["covering_radius"] = *facts.covering_radius;
+  if (!facts.hidden.empty()) named["hidden"] = py::tuple(py::cast(facts.hidden));
+  return named;
+}
+
+/// The rows birth, death of the bars of one dimension.
+Block dgm(const Bars& bars, int dim) {
+  const auto [first, count] = bars.range_of(dim);
+  std::vector<double> rows;
+  rows.reserve(2 * count);
+  for (std::size_t i = first; i < first + count; ++i)
+    rows.insert(rows.end(), {bars.barcode[i].birth, bars.barcode[i].death});
+  return Block::of(std::move(rows), {static_cast<py::ssize_t>(count), 2});
+}
+
 py::buffer_info bytes_of_bars(const Bars& bars) {
   static_assert(sizeof(Bar) == 24 && offsetof(Bar, birth) == 8 && offsetof(Bar, death) == 16,
                 "libph/_barcodes/_barcode.py knows the layout");
@@ -138,20 +163,15 @@ Bars::Range Bars::range_of(int dim) const {
 }
 
 void bind_bars(py::module_& m) {
-  py::class_<Facts>(m, "Facts")
-      .def_readonly("engine", &Facts::engine)
-      .def_readonly("max_dim", &Facts::max_dim)
-      .def_readonly("collapses", &Facts::collapses)
-      .def_readonly("threshold", &Facts::threshold)
-      .def_readonly("vertices", &Facts::vertices)
-      .def_readonly("edges", &Facts::edges)
-      .def_readonly("covering_radius", &Facts::covering_radius)
-      .def_property_readonly("hidden",
-                             [](const Facts& f) { return py::tuple(py::cast(f.hidden)); });
   py::class_<Bars>(m, "Bars", py::buffer_protocol())
       .def_buffer(&bytes_of_bars)
       .def("__len__", [](const Bars& bars) { return bars.barcode.size(); })
-      .def_readonly("facts", &Bars::facts)
+      .def_property_readonly("facts", &facts_of)
+      .def_property_readonly("top_dim",
+                             [](const Bars& bars) {
+                               const Barcode& all = bars.barcode;
+                               return all.empty() ? -1 : all[all.size() - 1].dim;
+                             })
       .def_readonly("field", &Bars::field)
       .def_property_readonly("p_values",
                              [](const Bars& bars) { return Block::of(std::vector(bars.p_values)); })
@@ -163,6 +183,7 @@ void bind_bars(py::module_& m) {
                              })
       .def_property_readonly("representatives",
                              [](const Bars& bars) { return bars.barcode.representatives(); })
+      .def("dgm", &dgm, py::arg("dim"))
       .def("birth_cells", &birth_cells, py::arg("dim"))
       .def("death_cells", &death_cells, py::arg("dim"))
       .def("chain", &chain, py::arg("i"))

@@ -155,7 +155,7 @@ def _generators(flag: _flag.Flag, bars: _flag.Bars) -> tuple[Any, ...]:
     """Represents the simplices of birth and death by their last edges."""
     finite, essential = [], []
     for dim, dgm in enumerate(bars.dgms):
-        places = bars.places_in_dim(dim)
+        places = bars.places(dim) - np.searchsorted(bars.barcode.dims, dim)
         dies = np.isfinite(dgm[:, 1])
         born = _flag.youngest_edges(flag.values, bars.barcode.birth_cells(dim)[places])
         killed = _flag.youngest_edges(flag.values,
