@@ -19,6 +19,7 @@ from . import _core, _options
 from ._errors import DataError, MemoryLimitError, UsageError
 from ._results import in_units
 
+_FLOAT32, _FLOAT64 = np.dtype(np.float32), np.dtype(np.float64)  # in the machine's byte order
 _LARGEST = 2**53  # all whole numbers up to this one are doubles
 _LARGE = 2**24  # bytes
 _WORDS = {"c": "complex numbers, expected real ones; take .real or abs()",
@@ -91,12 +92,14 @@ def _no_array(data: Any, name: str) -> UsageError:
 
 
 def _converted(data: Any, name: str) -> NDArray[Any]:
-    if data is None or isinstance(data, (str, bytes, dict, set, frozenset)) or is_graph(data):
-        raise _no_array(data, name)
-    if hasattr(data, "detach") and callable(data.detach):  # a tensor that requires a gradient
-        data = data.detach()
+    is_list = type(data) in (list, tuple)
+    if not is_list:
+        if data is None or isinstance(data, (str, bytes, dict, set, frozenset)) or is_graph(data):
+            raise _no_array(data, name)
+        if hasattr(data, "detach") and callable(data.detach):  # a tensor that requires a gradient
+            data = data.detach()
     try:
-        if not hasattr(data, "__array__") and hasattr(data, "__dlpack__"):
+        if not is_list and not hasattr(data, "__array__") and hasattr(data, "__dlpack__"):
             return np.from_dlpack(data)
         array = np.asarray(data)
     except (KeyboardInterrupt, MemoryError):
@@ -170,9 +173,9 @@ def as_float64(array: NDArray[Any], name: str, mask: NDArray[np.bool_] | None = 
 
     Entries where `mask` is true become NaN.
     """
-    kind, size = array.dtype.kind, array.dtype.itemsize
-    if mask is None and array.dtype == np.float64 and array.dtype.isnative and is_aligned(array):
+    if mask is None and array.dtype == _FLOAT64 and is_aligned(array):
         return array
+    kind, size = array.dtype.kind, array.dtype.itemsize
     if kind in "iu" and size == 8:
         beyond = array > _LARGEST
         if kind == "i":
@@ -233,7 +236,11 @@ def _copied(array: NDArray[Any], dtype: DTypeLike, name: str) -> NDArray[Any]:
 
 def is_aligned(array: NDArray[Any]) -> bool:
     """True if all numbers and the steps between them are aligned."""
-    return array.flags.aligned and all(step % array.itemsize == 0 for step in array.strides)
+    size = array.itemsize
+    for step in array.strides:
+        if step % size:
+            return False
+    return bool(array.flags.aligned)
 
 
 def as_points(data: Any, name: str = "X") -> NDArray[np.float64]:
@@ -274,7 +281,21 @@ def _fields_of(data: NDArray[Any], name: str) -> NDArray[np.float64]:
 def _warn_of_columns(data: Any, points: NDArray[Any], name: str) -> None:
     """Warns of columns that are probably not coordinates: columns of a data frame beside x and y,
     latitudes and longitudes, or whole numbers beside three columns of fractions."""
-    names = [str(column) for column in getattr(data, "columns", ())]
+    if hasattr(data, "columns"):
+        return _warn_of_names([str(column) for column in data.columns], name)
+    rows, columns = points.shape
+    if rows < 8 or not 3 < columns <= 7 or points.dtype.kind != "f":
+        return
+    with np.errstate(invalid="ignore"):
+        whole = [bool((np.floor(points[:, k]) == points[:, k]).all()) for k in range(columns)]
+    if whole == [k >= 3 for k in range(columns)]:
+        which = "column 3 has" if columns == 4 else f"columns 3 to {columns - 1} have"
+        _warn(f"{name}: {which} only whole numbers, unlike the first three, and "
+              f"{'is read as a coordinate' if columns == 4 else 'are read as coordinates'}; "
+              f"{name}[:, :3] leaves {'it' if columns == 4 else 'them'} out")
+
+
+def _warn_of_names(names: list[str], name: str) -> None:
     axes = [column for column in names if column.lower() in ("x", "y", "z")]
     found = [column.lower() for column in axes]
     others = [column for column in names if column not in axes]
@@ -290,16 +311,6 @@ def _warn_of_columns(data: Any, points: NDArray[Any], name: str) -> None:
         _warn(f"{name}: read {lat} and {lon} as coordinates of the plane, but differences of degrees "
               f"are not distances; (cos {lat} cos {lon}, cos {lat} sin {lon}, sin {lat}) is the "
               "point on the unit sphere")
-    rows, columns = points.shape
-    if names or rows < 8 or not 3 < columns <= 7 or points.dtype.kind != "f":
-        return
-    with np.errstate(invalid="ignore"):
-        whole = [bool((np.floor(points[:, k]) == points[:, k]).all()) for k in range(columns)]
-    if whole == [k >= 3 for k in range(columns)]:
-        which = "column 3 has" if columns == 4 else f"columns 3 to {columns - 1} have"
-        _warn(f"{name}: {which} only whole numbers, unlike the first three, and "
-              f"{'is read as a coordinate' if columns == 4 else 'are read as coordinates'}; "
-              f"{name}[:, :3] leaves {'it' if columns == 4 else 'them'} out")
 
 
 def _warn(text: str) -> None:
@@ -313,7 +324,7 @@ def as_distances(data: Any, name: str = "X") -> NDArray[Any]:
         raise UsageError(f"{name}: found an array of shape {array.shape}, expected distances: a "
                          "square matrix, or n(n-1)/2 numbers as scipy.spatial.distance.pdist gives "
                          "them")
-    if array.dtype == np.float32 and array.dtype.isnative and is_aligned(array):
+    if array.dtype == _FLOAT32 and is_aligned(array):
         return array
     return as_float64(array, name)
 

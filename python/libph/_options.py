@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""Checks the values of options, with clear error messages."""
+"""Checks the values of options, with clear error messages.
+
+The checks accept plain values at once, because small computations take no longer than a few checks.
+"""
 from __future__ import annotations
 
 import functools
@@ -10,7 +13,7 @@ import operator
 import os
 import re
 import sys
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from types import FunctionType
 from typing import Any, TypeVar
 
@@ -38,6 +41,8 @@ def refuse(name: str, value: Any, expected: str) -> UsageError:
 
 def whole(name: str, value: Any, least: int, most: int = 2**63 - 1) -> int:
     """A whole number from `least` to `most`."""
+    if type(value) is int and least <= value <= most:
+        return value
     try:
         if isinstance(value, _BOOLS):
             raise TypeError
@@ -54,9 +59,11 @@ def whole(name: str, value: Any, least: int, most: int = 2**63 - 1) -> int:
 
 def real(name: str, value: Any, expected: str = "a number", least: float = -math.inf) -> float:
     """A number that is not NaN."""
+    if type(value) is float and value >= least:
+        return value
     try:
-        if isinstance(value, (*_BOOLS, str, bytes)) or not (
-                isinstance(value, numbers.Real) or hasattr(value, "__float__")):
+        if type(value) is not int and (isinstance(value, (*_BOOLS, str, bytes)) or not (
+                isinstance(value, numbers.Real) or hasattr(value, "__float__"))):
             raise TypeError
         number = float(value)
     except (TypeError, ValueError, OverflowError, RuntimeError):
@@ -76,17 +83,22 @@ def positive(name: str, value: Any) -> float:
 
 def flag(name: str, value: Any) -> bool:
     """True or False, including NumPy's."""
-    if isinstance(value, _BOOLS):
+    if value is True or value is False:
+        return value
+    if isinstance(value, np.bool_):
         return bool(value)
     raise refuse(name, value, "True or False")
 
 
-def choice(name: str, value: Any, names: Iterable[Any]) -> Any:
+def choice(name: str, value: Any, names: Collection[Any]) -> Any:
     """One of a few words. A scalar of NumPy counts as the Python object that it holds.
 
     >>> choice("collapse", np.True_, ["auto", True, False])
     True
     """
+    for known in names:
+        if value is known:
+            return value
     names = list(names)
     if isinstance(value, np.generic):
         value = value.item()
@@ -147,27 +159,30 @@ def axes(name: str, value: Any, count: int) -> list[bool]:
     >>> axes("periodic", [0, -1], 3)
     [True, False, True]
     """
-    expected = f"axes from {-count} to {count - 1}, {count} bools, 'all', True or False"
-    if isinstance(value, str) and value == "all":
-        return [True] * count
+    chosen = _axes(value, count)
+    if chosen is None:
+        raise refuse(name, value,
+                     f"axes from {-count} to {count - 1}, {count} bools, 'all', True or False")
+    return chosen
+
+
+def _axes(value: Any, count: int) -> list[bool] | None:
     if isinstance(value, _BOOLS):
         return [bool(value)] * count
     if isinstance(value, (str, bytes)):
-        raise refuse(name, value, expected)
+        return [True] * count if value == "all" else None
     try:
         given: Sequence[Any] = list(value) if isinstance(value, Iterable) else [value]
     except TypeError:
-        raise refuse(name, value, expected) from None
+        return None
     if given and all(isinstance(axis, _BOOLS) for axis in given):
-        if len(given) != count:
-            raise refuse(name, value, expected)
-        return [bool(axis) for axis in given]
+        return [bool(axis) for axis in given] if len(given) == count else None
     chosen = [False] * count
     for axis in given:
         try:
-            chosen[whole(name, axis, -count, count - 1)] = True
+            chosen[whole("axis", axis, -count, count - 1)] = True
         except UsageError:
-            raise refuse(name, value, expected) from None
+            return None
     return chosen
 
 

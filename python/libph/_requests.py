@@ -51,8 +51,14 @@ class Request(NamedTuple):
     recipe: _core.Recipe
     task: _core.Task | None
     options: dict[str, Any]  # options of the run
-    meta: dict[str, Any]
+    facts: Callable[[], dict[str, Any]]
     slab_layers: int = 0
+
+    @property
+    def meta(self) -> dict[str, Any]:
+        """The facts about the origin of a barcode that are known before the computation. They are
+        made when they are needed, because drop-ins do not need them."""
+        return self.facts()
 
     def run(self, function: Callable[..., _Result]) -> _Result:
         """Calls a function of _core and translates its errors into the terms of the keywords."""
@@ -147,12 +153,15 @@ def _threshold(o: dict[str, Any], least: float = -math.inf) -> float | None:
     return None if value is None else _options.real("threshold", value, expected, least)
 
 
+def _unless(value: Any, default: Any) -> Any:
+    return None if value == default else value
+
+
 def _meta(complex_name: str, o: dict[str, Any], **more: Any) -> dict[str, Any]:
-    """The facts about the origin of a barcode that are known before the computation."""
-    kind = o["representatives"]
+    """The facts about a request; see `Request.meta`."""
     meta = {"complex": complex_name, "field": o["field"], "threshold": o["threshold"],
             "min_persistence": float(o["min_persistence"]), "min_dim": int(o["min_dim"]) or None,
-            "representatives": None if kind == "none" else kind, **more}
+            "representatives": _unless(o["representatives"], "none"), **more}
     return {name: value for name, value in meta.items() if value is not None}
 
 
@@ -185,20 +194,19 @@ def rips_request(o: dict[str, Any]) -> Request:
             raise UsageError(f"{name}: needs all distances, found only some of them")
     task = _task_of(o, _loops_of(o, "tight"))
     keywords = {**o, "threshold": threshold, "dtm_neighbours": neighbours["dtm_neighbors"],
-                "core_neighbours": neighbours["core_neighbors"], "weight_exponent": exponent, "approximation": approximation,
-                "merge_equal_points": merge}
+                "core_neighbours": neighbours["core_neighbors"], "weight_exponent": exponent,
+                "approximation": approximation, "merge_equal_points": merge}
     recipe = _core.RipsRecipe(source.space, keywords, births, subsample, radius, source.ids)
     weights = o["weights"] if isinstance(o["weights"], str) else None if births is None else "given"
-    others = {name: o[name] for name in ("subsample", "subsample_radius")}
-    for name in ("nan", "diagonal", "symmetrise"):
-        others[name] = None if o[name] in ("error", "zero") else o[name]
-    meta = _meta("rips", o, points=source.points, coordinates=source.coordinates,
-                 metric="precomputed" if source is o["X"] else metric_name(o["metric"]),
-                 minkowski_p=o["minkowski_p"] if o["metric"] == "minkowski" else None,
-                 weights=weights, **neighbours, approximation=approximation,
-                 weight_exponent=None if weights is None else _NUMBERS[exponent],
-                 **others)
-    return Request(recipe, task, o["run"], meta)
+    return Request(recipe, task, o["run"], lambda: _meta(
+        "rips", o, points=source.points, coordinates=source.coordinates,
+        metric="precomputed" if source is o["X"] else metric_name(o["metric"]),
+        minkowski_p=o["minkowski_p"] if o["metric"] == "minkowski" else None,
+        weights=weights, **neighbours, approximation=approximation,
+        weight_exponent=None if weights is None else _NUMBERS[exponent],
+        subsample=o["subsample"], subsample_radius=o["subsample_radius"],
+        nan=_unless(o["nan"], "error"), diagonal=_unless(o["diagonal"], "zero"),
+        symmetrise=o["symmetrise"]))
 
 
 def _finite(name: str, value: Any) -> float:
@@ -258,11 +266,10 @@ def alpha_request(o: dict[str, Any]) -> Request:
     source = source_of(o["X"], nan=o["nan"])
     recipe, squared, period = alpha_recipe(o, source, value, _threshold(o))
     task = _task_of(o, _loops_of(o, "plain"))
-    meta = _meta(value, o, points=source.points, coordinates=source.coordinates,
-                 squared=squared, weights=None if o["weights"] is None else "given",
-                 period=tuple(period) if any(period) else None,
-                 nan=None if o["nan"] == "error" else o["nan"])
-    return Request(recipe, task, o["run"], meta)
+    return Request(recipe, task, o["run"], lambda: _meta(
+        value, o, points=source.points, coordinates=source.coordinates, squared=squared,
+        weights=None if o["weights"] is None else "given",
+        period=tuple(period) if any(period) else None, nan=_unless(o["nan"], "error")))
 
 
 def alpha_recipe(o: dict[str, Any], source: Source, value: str = "alpha",
@@ -331,10 +338,10 @@ def cubical_request(o: dict[str, Any]) -> Request:
     task = _task_of(o, _loops_of(o, "plain"), (*_CHAINS, "voxels"))
     recipe = _core.cubical_recipe(array, nan == "drop", _arrays.is_mapped_file(image),
                                   construction == "vertices", superlevel, periodic, threshold)
-    meta = _meta("cubical", o, shape=array.shape, affine=affine, construction=construction,
-                 superlevel=superlevel, periodic=tuple(int(k) for k in np.flatnonzero(periodic)),
-                 nan=None if nan == "error" else nan)
-    return Request(recipe, task, o["run"], meta, layers)
+    return Request(recipe, task, o["run"], lambda: _meta(
+        "cubical", o, shape=array.shape, affine=affine, construction=construction,
+        superlevel=superlevel, periodic=tuple(k for k, wraps in enumerate(periodic) if wraps),
+        nan=_unless(nan, "error")), layers)
 
 
 def lower_star_request(o: dict[str, Any]) -> Request:
@@ -344,7 +351,7 @@ def lower_star_request(o: dict[str, Any]) -> Request:
     cells = simplex_list(o["simplices"], memory_limit=_run.memory_limit(o["run"]))
     recipe = _core.lower_star_recipe(cells.vertices, cells.offsets, values, _threshold(o))
     task = _task_of(o, _loops_of(o, "plain"))
-    return Request(recipe, task, o["run"], _meta("lower-star", o, points=len(values)))
+    return Request(recipe, task, o["run"], lambda: _meta("lower-star", o, points=len(values)))
 
 
 def filtered_request(o: dict[str, Any]) -> Request:
@@ -354,7 +361,7 @@ def filtered_request(o: dict[str, Any]) -> Request:
     values = joined_values(o["values"], len(cells))
     recipe = _core.simplices_recipe(cells.vertices, cells.offsets, values, _threshold(o))
     task = _task_of(o, _loops_of(o, "plain"))
-    return Request(recipe, task, o["run"], _meta("explicit", o))
+    return Request(recipe, task, o["run"], lambda: _meta("explicit", o))
 
 
 def boundary_request(o: dict[str, Any]) -> Request:
@@ -394,4 +401,4 @@ def boundary_request(o: dict[str, Any]) -> Request:
         dims.astype(np.int32), columns.indptr.astype(np.int64), columns.indices.astype(np.int64),
         signs.astype(np.int32), values, _threshold(o))
     task = _task_of(o, "none")
-    return Request(recipe, task, o["run"], _meta("explicit", o))
+    return Request(recipe, task, o["run"], lambda: _meta("explicit", o))

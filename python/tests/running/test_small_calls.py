@@ -1,14 +1,59 @@
 # SPDX-License-Identifier: MIT
 """A call with a small input costs little more than its computation, which takes microseconds."""
 import resource
+import sys
 import time
 
 import numpy as np
 import pytest
 
 import libph as ph
+from libph.compat import gudhi, ripser
 
 X = np.random.default_rng(0).random((10, 2))
+DISTANCES = np.sqrt(((X[:, None] - X)**2).sum(axis=2))
+
+
+def rips_tree():
+    return gudhi.RipsComplex(points=X).create_simplex_tree(max_dimension=2)
+
+
+# Each call, with the largest number of functions that Python may call for it.
+CALLS = {
+    "rips": (lambda: ph.rips(X), 80),
+    "alpha": (lambda: ph.alpha(X), 75),
+    "cubical": (lambda: ph.cubical(X), 65),
+    "dgms": (lambda: ph.rips(X).dgms(), 100),
+    "ripser": (lambda: ripser.ripser(DISTANCES, distance_matrix=True), 95),
+    "gudhi.rips": (lambda: rips_tree().persistence(), 85),
+    "gudhi.cubical": (lambda: gudhi.CubicalComplex(top_dimensional_cells=X).persistence(), 72),
+}
+
+
+def functions_called(call):
+    """The number of functions, of Python or built in, that Python calls. Unlike a time, it does not
+    depend on the machine."""
+    count = 0
+
+    def see(frame, event, argument):
+        nonlocal count
+        count += event in ("call", "c_call")
+
+    call()  # imports what it needs
+    sys.setprofile(see)
+    try:
+        call()
+    finally:
+        sys.setprofile(None)
+    return count
+
+
+@pytest.mark.parametrize("name", CALLS)
+def test_few_functions_are_called(name):
+    call, most = CALLS[name]
+    if name == "alpha" and not ph._core.alpha_support():
+        pytest.skip("built without CGAL")
+    assert functions_called(call) <= most
 
 
 def test_an_image_with_two_axes_costs_about_as_much_as_a_row():

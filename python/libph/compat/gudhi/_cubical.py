@@ -10,12 +10,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ... import _arrays, _options
+from ... import _arrays, _core, _options
 from ..._compute import cubical
 from ..._errors import MissingInputError, UsageError
 from ..._files import found_by, read
+from ..._requests import cubical_request
 from .._images import deciding_voxels
 from ._persistence import Persistence, _OrderError
+
+_DEFAULTS: dict[str, Any] = {**cubical.__kwdefaults__, "run": {}}  # the options of `cubical`
 
 
 class _FileError(MissingInputError, RuntimeError):
@@ -39,10 +42,11 @@ class CubicalComplex(Persistence):
         A Perseus file with the values of cubes.
     """
 
+    _every: NDArray[Any] | None = None  # the values of all cells, once they are needed
+
     def __init__(self, *, top_dimensional_cells: ArrayLike | None = None,
                  vertices: ArrayLike | None = None, dimensions: Sequence[int] | None = None,
                  perseus_file: str | os.PathLike[str] = "") -> None:
-        super().__init__()
         if self._read(top_dimensional_cells, vertices, dimensions, perseus_file):
             raise UsageError("perseus_file: found periodic axes, expected a "
                              "PeriodicCubicalComplex for them")
@@ -59,7 +63,6 @@ class CubicalComplex(Persistence):
                              ", expected one of top_dimensional_cells, vertices and perseus_file, "
                              "which has its dimensions")
         self._is_vertices = vertices is not None
-        self._every: NDArray[Any] | None = None
         if perseus_file:
             try:
                 found = found_by(**_options.arguments_of(read, perseus_file,
@@ -119,10 +122,11 @@ class CubicalComplex(Persistence):
         min_persistence : float
             Bars with death - birth <= this value are left out; a negative value keeps all bars.
         """
-        barcode = cubical(self._image, periodic=self._periodic, field=homology_coeff_field,
-                          construction="vertices" if self._is_vertices else "cells",
-                          min_persistence=min_persistence)
-        self._keep(barcode, self._image.ndim + 1)
+        request = cubical_request({
+            **_DEFAULTS, "image": self._image, "periodic": self._periodic,
+            "construction": "vertices" if self._is_vertices else "cells",
+            "field": homology_coeff_field, "min_persistence": min_persistence})
+        self._keep(request.run(_core.barcode), self._image.ndim + 1)
 
     def persistence(self, homology_coeff_field: int = 11, min_persistence: float = 0
                     ) -> list[tuple[int, tuple[float, float]]]:
@@ -189,7 +193,6 @@ class PeriodicCubicalComplex(CubicalComplex):
                  vertices: ArrayLike | None = None,
                  periodic_dimensions: Sequence[bool] | None = None,
                  perseus_file: str | os.PathLike[str] = "") -> None:
-        Persistence.__init__(self)
         closed = self._read(top_dimensional_cells, vertices, dimensions, perseus_file)
         axes = self._image.ndim
         if perseus_file:

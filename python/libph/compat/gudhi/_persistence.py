@@ -5,10 +5,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ... import _options
+from ... import _core, _options
 from ..._barcodes import Barcode
 from ..._errors import UsageError
-from ..._vectors import lengths
 
 
 class _OrderError(UsageError, RuntimeError):
@@ -19,23 +18,22 @@ class _OrderError(UsageError, RuntimeError):
 class Persistence:
     """Keeps the computed bars, and returns them in the forms of GUDHI."""
 
-    def __init__(self) -> None:
-        self._found: Barcode | None = None
-        self._dims = 0
-        self._above: NDArray[np.float64] | None = None
+    _bars: _core.Bars | None = None
+    _dims = 0
+    _above: NDArray[np.float64] | None = None
 
-    def _keep(self, barcode: Barcode, dims: int, above: NDArray[np.float64] | None = None) -> None:
+    def _keep(self, bars: _core.Bars, dims: int, above: NDArray[np.float64] | None = None) -> None:
         """Stores the bars of this many dimensions. `above` holds the births of the bars of the last
         dimension, which never die."""
-        self._found, self._dims, self._above = barcode, dims, above
+        self._bars, self._dims, self._above = bars, dims, above
 
     def _is_persistence_defined(self) -> bool:
-        return self._found is not None
+        return self._bars is not None
 
     def _barcode(self, asked: str) -> Barcode:
-        if self._found is None:
+        if self._bars is None:
             raise _OrderError(f"{asked}: compute_persistence() must be called first")
-        return self._found
+        return Barcode._of(self._bars, {})
 
     def _order(self, dim: int) -> tuple[NDArray[np.int64], NDArray[np.bool_]]:
         """The order of the bars of a dimension (by death, or by birth if they never die), and which
@@ -50,12 +48,11 @@ class Persistence:
         return self._barcode("dgm").dgm(dim)[self._order(dim)[0]]
 
     def _listed(self) -> list[tuple[int, tuple[float, float]]]:
-        bars: list[tuple[int, tuple[float, float]]] = []
-        for dim in reversed(range(self._dims)):
-            dgm = self._dgm(dim)
-            longest = np.argsort(-lengths(*dgm.T), kind="stable")
-            bars += [(dim, (birth, death)) for birth, death in dgm[longest].tolist()]
-        return bars
+        assert self._bars is not None
+        bars = _core.listed(self._bars)
+        if self._above is None:
+            return bars
+        return [*((self._dims - 1, (birth, np.inf)) for birth in self._above.tolist()), *bars]
 
     def persistence_intervals_in_dimension(self, dimension: int) -> NDArray[np.float64]:
         """The bars of a dimension: rows birth, death, sorted by death."""

@@ -8,13 +8,15 @@ from typing import Any, NoReturn
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ... import _arrays, _options
+from ... import _arrays, _core, _options
 from ..._compute import rips
 from ..._errors import NotBuiltIn, UsageError
 from ..._points import distance_to_measure
+from ..._requests import rips_request
 from .. import _flag, _weights
 from ._persistence import Persistence
 
+_DEFAULTS: dict[str, Any] = {**rips.__kwdefaults__, "run": {}}  # the options of `rips`
 _TREE_METHODS = {
     "assign_filtration", "assign_key", "clear", "collapse_edges", "compute_extended_filtration",
     "create_from_array", "dimension", "eccentricity", "edge_collapse", "euler_characteristic",
@@ -35,13 +37,13 @@ class FlagTree(Persistence):
     Made by `RipsComplex.create_simplex_tree` and similar methods.
     """
 
+    _creators: NDArray[np.int64] | None = None  # births of bars in the highest dimension
+
     def __init__(self, data: Any, options: dict[str, Any], max_dimension: int) -> None:
-        super().__init__()
         self._data = data
         self._options = options
         # GUDHI always lists edges.
         self._dimension = max(1, _options.whole("max_dimension", max_dimension, 0))
-        self._creators: NDArray[np.int64] | None = None  # births of bars in the highest dimension
 
     def __getattr__(self, name: str) -> Any:
         if name not in _TREE_METHODS:
@@ -94,9 +96,10 @@ class FlagTree(Persistence):
         if min_persistence < 0 and options["threshold"] is None:
             # Beyond the enclosing radius, there are bars of length zero.
             options = {**options, "threshold": np.inf}
-        barcode = rips(data, max_dim=self._dimension - 1, field=homology_coeff_field,
-                       min_persistence=min_persistence, **options)
-        self._keep(barcode, self._dimension + (above is not None), above)
+        request = rips_request({
+            **_DEFAULTS, **options, "X": data, "max_dim": self._dimension - 1,
+            "field": homology_coeff_field, "min_persistence": min_persistence})
+        self._keep(request.run(_core.barcode), self._dimension + (above is not None), above)
         self._creators = creators
         return self
 
