@@ -178,7 +178,7 @@ class ClusterTree:
         from scipy.sparse import coo_array
         from scipy.sparse.csgraph import connected_components
         n = len(self)
-        u, v = self.edges[:np.searchsorted(self.values, value, side="right")].T
+        u, v = self.edges[:int(np.searchsorted(self.values, value, side="right"))].T
         graph = coo_array((np.ones(len(u), dtype=np.int8), (u, v)), shape=(n, n))
         _, component = connected_components(graph, directed=False)
         sizes = np.bincount(component, minlength=1)
