@@ -10,6 +10,7 @@ from joblib import effective_n_jobs
 from numpy.typing import NDArray
 from sklearn.base import BaseEstimator, ClusterMixin
 from sklearn.metrics import pairwise_distances
+from sklearn.utils.validation import check_is_fitted
 
 from .. import _options
 from .._clusters import Clusters, ClusterTree, cluster_tree, of_forest
@@ -181,10 +182,9 @@ class HDBSCAN(ClusterMixin, BaseEstimator):
         return _METRICS.get(self.metric, self.metric) if isinstance(self.metric, str) \
             else self.metric
 
-    def _selection(self, **changes: Any) -> dict[str, Any]:
-        largest = self.max_cluster_size
+    def _selection(self) -> dict[str, Any]:
         return {"method": self.cluster_selection_method, "epsilon": self.cluster_selection_epsilon,
-                "allow_single": self.allow_single_cluster, "max_size": largest, **changes}
+                "allow_single": self.allow_single_cluster, "max_size": self.max_cluster_size}
 
     def _marked(self, clusters: Clusters) -> tuple[_Integers, _Numbers]:
         """Labels and probabilities, with the marks of rows that are not finite."""
@@ -260,29 +260,34 @@ class HDBSCAN(ClusterMixin, BaseEstimator):
         tree = self.cluster_tree_
         return np.column_stack([tree.edges, tree.values])
 
-    def cut(self, **changes: Any) -> _Integers:
+    def cut(self, *, min_cluster_size: int | None = None,
+            cluster_selection_method: str | None = None,
+            cluster_selection_epsilon: float | None = None,
+            allow_single_cluster: bool | None = None,
+            max_cluster_size: int | None = None) -> _Integers:
         """The labels with other parameters, without another search for the forest.
 
         Parameters
         ----------
-        **changes
-            `min_cluster_size`, `cluster_selection_method`, `cluster_selection_epsilon`,
-            `allow_single_cluster` and `max_cluster_size`. Default: those of the estimator.
+        min_cluster_size, cluster_selection_method, cluster_selection_epsilon, \
+allow_single_cluster, max_cluster_size
+            As in the estimator. Default: the values of the estimator.
+
+        Returns
+        -------
+        ndarray
+            Labels as in `labels_`.
         """
-        self._check_fitted()
-        names = {"cluster_selection_method": "method", "cluster_selection_epsilon": "epsilon",
-                 "allow_single_cluster": "allow_single", "max_cluster_size": "max_size"}
+        check_is_fitted(self)
         tree = self.cluster_tree_
-        if "min_cluster_size" in changes:
-            min_size = _options.whole("min_cluster_size", changes.pop("min_cluster_size"), 2)
-            if min_size >= tree.min_size:
-                tree = tree.with_min_size(min_size)
-            else:
-                tree = of_forest(tree.births, tree.values, tree.edges, min_size, tree.scale)
-        for name in changes:
-            _options.choice("keyword", name, ["min_cluster_size", *names])
-        return self._marked(tree.select(**self._selection(
-            **{names[name]: value for name, value in changes.items()})))[0]
+        if min_cluster_size is not None:
+            size = _options.whole("min_cluster_size", min_cluster_size, 2)
+            tree = tree.with_min_size(size) if size >= tree.min_size else of_forest(
+                tree.births, tree.values, tree.edges, size, tree.scale)
+        changes = {"method": cluster_selection_method, "epsilon": cluster_selection_epsilon,
+                   "allow_single": allow_single_cluster, "max_size": max_cluster_size}
+        return self._marked(tree.select(**{
+            **self._selection(), **{k: v for k, v in changes.items() if v is not None}}))[0]
 
     def dbscan_clustering(self, cut_distance: float, min_cluster_size: int = 5) -> _Integers:
         """The labels of DBSCAN* with a given radius: clusters are components at one value.
@@ -300,15 +305,11 @@ class HDBSCAN(ClusterMixin, BaseEstimator):
         ndarray
             Labels as in `labels_`.
         """
-        self._check_fitted()
+        check_is_fitted(self)
         labels = self.cluster_tree_.cut(
             _options.real("cut_distance", cut_distance),
             min_size=_options.whole("min_cluster_size", min_cluster_size, 1))
         return np.where(self._marks < 0, self._marks, labels)
-
-    def _check_fitted(self) -> None:
-        from sklearn.utils.validation import check_is_fitted
-        check_is_fitted(self)
 
     def _more_tags(self) -> dict[str, Any]:
         return {"allow_nan": self.metric != "precomputed", "pairwise": self.metric == "precomputed"}
