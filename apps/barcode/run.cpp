@@ -32,7 +32,6 @@
 #include "ph/detail/io/table.hpp"
 #include "ph/detail/report/shown_tree.hpp"
 #include "ph/estimate.hpp"
-#include "ph/io/save.hpp"
 #include "ph/loops.hpp"
 
 namespace ph::barcode {
@@ -282,9 +281,9 @@ class Run {
     result.code = app::kDifference;
   }
 
-  BarcodeInfo info_of(const Loaded& loaded, const RunPlan& plan) const {
+  /// Adds the facts that this program knows to the facts that the library states.
+  BarcodeInfo completed(BarcodeInfo info, const Loaded& loaded) const {
     const BuiltComplex& built = loaded.built;
-    BarcodeInfo info = ph::info_of(built.complex, plan, context());
     info.program = app::program_and_version("ph-barcode");
     info.input = job_.places.input;
     info.input_description = loaded.description;
@@ -293,13 +292,10 @@ class Run {
     info.affine = loaded.affine;
     info.nan_dropped = loaded.nan_dropped;
     info.complex = built.name;
-    info.max_dim = job_.question.options.max_dim.value_or(*plan.options.max_dim);
+    info.max_dim = job_.question.options.max_dim.value_or(info.max_dim);
     info.threshold = built.threshold;
-    info.metric = built.metric;
     info.vertex_weights = built.vertex_weights;
-    info.subsample = built.subsample;
     info.voxels = built.voxels;
-    info.alpha = built.alpha;
     info.timings = watch_.laps();
     info.peak_memory = app::peak_memory();
     return info;
@@ -312,24 +308,17 @@ class Run {
       p_values = p_values_of(result.bars, std::holds_alternative<Alpha>(loaded.built.complex)
                                               ? DistanceFiltration::cech
                                               : DistanceFiltration::rips);
-    BarcodeInfo info = info_of(loaded, plan);
-    info.loops = result.loops;
-    info.p_values = p_values;
+    result.bars.set_info(completed(result.bars.info(), loaded));
     for (const auto& [stage, seconds] : watch_.laps())
       session_.explain(fmt::format("{} {:.3f} s", stage, seconds));
     session_.explain("memory " + format_size(static_cast<double>(session_.memory_taken())));
     note_absent_dims(result.bars, job_.results.look, session_);
     const app::BarHold results_are_written(session_);
-    outputs.write(result.bars, info, look_of(job_.results.look, job_.question.cubical.superlevel),
-                  trees, context());
+    outputs.write(result.bars, {.loops = result.loops, .p_values = p_values},
+                  look_of(job_.results.look, job_.question.cubical.superlevel), trees, context());
     if (!job_.places.report.empty()) {
-      const Shown shown{result.bars,
-                        info,
-                        *loaded.data,
-                        loaded.built,
-                        plan.form,
-                        promise_,
-                        std::move(result.warnings)};
+      const Shown shown{result.bars, *loaded.data, loaded.built,
+                        plan.form,   promise_,     std::move(result.warnings)};
       write_report(outputs.report().file(), shown, job_, session_);
       outputs.report().commit();
     }

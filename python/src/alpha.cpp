@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "python/src/alpha.hpp"
 
-#include <cmath>
 #include <string>
 #include <utility>
 
@@ -17,14 +16,7 @@ Alpha AlphaRecipe::alpha(const RunContext& context) const {
   return Alpha(space_->point_set()->points, options_, context);
 }
 
-Built AlphaRecipe::build(const RunContext& context) const {
-  Facts facts;
-  Alpha complex = alpha(context);
-  if (std::isfinite(options_.threshold)) facts.threshold = options_.threshold;
-  for (const std::uint32_t v : complex.hidden())
-    facts.hidden.push_back(ids_.empty() ? Index{v} : ids_[v]);
-  return {std::move(complex), std::move(facts)};
-}
+Built AlphaRecipe::build(const RunContext& context) const { return {alpha(context)}; }
 
 bool AlphaRecipe::is_short(const Options& task) const {
   constexpr Index few = 200;

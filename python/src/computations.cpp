@@ -22,7 +22,7 @@ namespace ph::python {
 namespace {
 
 Bars compute(const Recipe& recipe, const Task& task, const RunContext& context) {
-  Built built = recipe.build(context);
+  const Built built = recipe.build(context);
   const RunPlan planned = plan(built.complex, task.options, context);
 
   Bars bars{run(built.complex, planned, context)};
@@ -33,16 +33,7 @@ Bars compute(const Recipe& recipe, const Task& task, const RunContext& context) 
     bars.barcode = with_input_ids(bars.barcode, recipe.vertex_ids());
     name_points(bars.loops, recipe.vertex_ids());
   }
-  bars.facts = std::move(built.facts);
-  if (const RunFacts known = facts(built.complex, planned, context); known.vertices) {
-    bars.facts.vertices = known.vertices;
-    bars.facts.edges = known.edges;
-    bars.facts.threshold = known.threshold;
-    bars.facts.covering_radius = known.covering_radius;
-  }
-  bars.facts.engine = planned.options.engine.name();
-  bars.facts.collapses = planned.options.collapse == Collapse::on;
-  bars.facts.max_dim = task.options.max_dim.value_or(*planned.options.max_dim);
+  if (task.options.max_dim) bars.set_max_dim(*task.options.max_dim);
   bars.field = task.options.field;
   return bars;
 }

@@ -166,12 +166,10 @@ void save(const Bars& bars, const std::string& path, const std::optional<std::st
                 "format: found " +
                     (format_name ? "'" + *format_name + "'" : "none for '" + path + "'") +
                     ", expected csv, json, ripser, pers, dipha or npy");
-  BarcodeInfo info = info_of(meta);
-  info.loops = bars.loops;
-  info.p_values = bars.p_values;
+  const BarcodeInfo info = info_of(meta);
   run_task(options, false, [&](const SharedContext&) {
     OutputFile file(path);
-    write_barcode(file, bars.barcode, *format, info);
+    write_barcode(file, bars.barcode, *format, {bars.loops, bars.p_values, &info});
     file.commit();
   });
 }
@@ -187,13 +185,12 @@ py::tuple read_bars(const std::string& path, const std::optional<std::string>& f
                                            Input::Excess::refused, barcode_start_check(format)),
                                format);
   });
-  const py::dict meta = meta_of(stored.info);
-  return py::make_tuple(Bars{std::move(stored.bars),
-                             std::move(stored.loops),
-                             {},
-                             stored.info.field,
-                             std::move(stored.p_values)},
-                        meta, stored.left_out);
+  const BarcodeInfo& info = stored.bars.info();
+  const py::dict meta = meta_of(info);
+  const std::int64_t field = info.field;
+  return py::make_tuple(
+      Bars{std::move(stored.bars), std::move(stored.loops), field, std::move(stored.p_values)},
+      meta, stored.left_out);
 }
 
 }  // namespace

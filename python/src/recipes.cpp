@@ -77,7 +77,7 @@ Rips RipsRecipe::rips(const RunContext& context) const {
 
 Built RipsRecipe::build(const RunContext& context) const {
   auto data = std::make_shared<const MemoryClaim>(context.memory, space_->bytes_of_pairs());
-  return {rips(context), {}, std::move(data)};
+  return {rips(context), std::move(data)};
 }
 
 bool RipsRecipe::is_short(const Options& task) const {
@@ -121,9 +121,7 @@ Image CubicalRecipe::image(const RunContext& context) const {
 }
 
 Built CubicalRecipe::build(const RunContext& context) const {
-  Facts facts;
-  facts.threshold = options_.threshold;
-  return {Cubical(image(context), options_, context), std::move(facts)};
+  return {Cubical(image(context), options_, context)};
 }
 
 bool CubicalRecipe::is_short(const Options& task) const {
@@ -132,12 +130,10 @@ bool CubicalRecipe::is_short(const Options& task) const {
 }
 
 Built ListedRecipe::build(const RunContext& context) const {
-  Facts facts;
-  facts.threshold = threshold_;
   auto data = std::make_shared<const MemoryClaim>(context.memory, bytes_);
   ExplicitComplex complex = list_(context);
   if (threshold_) complex.set_threshold(*threshold_);
-  return {std::move(complex), std::move(facts), std::move(data)};
+  return {std::move(complex), std::move(data)};
 }
 
 bool ListedRecipe::is_short(const Options& task) const {

@@ -21,10 +21,9 @@ struct Task {
   LoopChoice loops = LoopChoice::none;
 };
 
-/// A complex, and the facts that were found while it was built.
+/// A complex.
 struct Built {
   AnyComplex complex;
-  Facts facts = {};
   std::shared_ptr<const MemoryClaim> data = nullptr;  ///< of the recipe's copies of the data
 };
 

@@ -38,7 +38,7 @@ MUTANTS = [
         ("outputs: bits that set an ID are kept", "output-mode", "0777", "07777"),
     ], targets=["ph-barcode"]),
     *found_by("ph_barcode_stored", [
-        ("JSON of bars: all axes close up", "json-periodic", "if (options.periodic[axis])", ""),
+        ("JSON of bars: all axes close up", "json-periodic", "if (image.periodic[axis])", ""),
         ("JSON of bars: joined parts left nothing out", "json-min-persistence", ""),
     ], targets=["ph-barcode"]),
 ]

@@ -60,7 +60,7 @@ MUTANTS = [
         ("options: --threads of ph-segment is ignored", "idle-threads", "0 && !a.signatures", "9999"),
     ], targets=["ph-barcode", "ph-segment"]),
     *found_by("ph_barcode_stored", [
-        ("stored: JSON forgets what it is of", "stored-origin", "stored.info :", "info :"),
+        ("stored: JSON forgets what it is of", "stored-origin", "if (barcode.info().program.empty())", ""),
     ], targets=["ph-barcode"]),
     *found_by("program_overwrites", [
         ("outputs: --compare may be appended to an input", "compare-output", "format != BarcodeFormat::none",

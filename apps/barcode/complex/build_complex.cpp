@@ -198,12 +198,8 @@ class Builder {
                       wanted.engine.name()));
     options.births = values_by_point(job_.question.vertex_weights, size, 0, "a finite number >= 0");
     return in_name_of(name_, [&] {
-      BuiltComplex built{rips_of(data, std::move(options)), "rips", std::nullopt, empty,
-                         weights_text()};
-      built.metric = std::same_as<Data, Points>
-                         ? metric_name(job_.question.rips.distance, job_.question.rips.minkowski_p)
-                         : "precomputed";
-      return built;
+      return BuiltComplex{rips_of(data, std::move(options)), "rips", std::nullopt, empty,
+                          weights_text()};
     });
   }
   /// The complex refers to the points, which must therefore stay in place; see build_complex.

@@ -18,10 +18,8 @@ struct BuiltComplex {
   std::string name;  ///< "rips", "cubical", "explicit", "lower-star", "alpha", …
   /// The threshold of its values; empty if all values are present.
   std::optional<double> threshold;
-  bool empty = false;  ///< true if there are no points or cells at all
-  // This text is the same as in the member of BarcodeInfo with this name.
-  std::string vertex_weights = {};
-  std::string metric = {};
+  bool empty = false;               ///< true if there are no points or cells at all
+  std::string vertex_weights = {};  ///< as in BarcodeInfo
   std::optional<CubicalOptions> cubical = std::nullopt;  ///< for an image
   std::optional<BarcodeInfo::Subsample> subsample = std::nullopt;
   std::optional<BarcodeInfo::VoxelGrid> voxels = std::nullopt;  ///< for points as voxels

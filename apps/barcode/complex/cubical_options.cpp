@@ -22,12 +22,4 @@ CubicalOptions cubical_options(const Job& job, const Image& image,
   return options;
 }
 
-void describe(const CubicalOptions& options, BarcodeInfo& info) {
-  info.construction = name_of(options.construction);
-  for (std::size_t axis = 0; axis < options.periodic.size(); ++axis)
-    // mutant: json-periodic
-    if (options.periodic[axis]) info.periodic.push_back(static_cast<int>(axis));
-  info.superlevel = options.superlevel;
-}
-
 }  // namespace ph::barcode

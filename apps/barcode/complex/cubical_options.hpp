@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "apps/barcode/arguments/arguments.hpp"
-#include "ph/io/write.hpp"
+#include "ph/cubical.hpp"
 
 namespace ph::barcode {
 
@@ -12,8 +12,5 @@ namespace ph::barcode {
 /// @throws Error (usage) if an option needs more axes than the image has.
 CubicalOptions cubical_options(const Job& job, const Image& image,
                                const std::vector<bool>& periodic);
-
-/// Adds these options to the description of a barcode's origin.
-void describe(const CubicalOptions& options, BarcodeInfo& info);
 
 }  // namespace ph::barcode

@@ -13,14 +13,17 @@ struct Chosen {
   std::vector<BarLoops> loops;
   std::vector<double> p_values;
 
-  Chosen(const Barcode& all, const BarcodeInfo& info, std::span<const int> dims)
+  Chosen(const Barcode& all, const BarData& data, std::span<const int> dims)
       : bars(all.cell_kind()) {
     for (std::size_t i = 0; i < all.size(); ++i) {
       if (std::ranges::find(dims, all[i].dim) == dims.end()) continue;
       add(all, i);
-      if (!info.loops.empty()) loops.push_back(info.loops[i]);
-      if (!info.p_values.empty()) p_values.push_back(info.p_values[i]);
+      if (!data.loops.empty()) loops.push_back(data.loops[i]);
+      if (!data.p_values.empty()) p_values.push_back(data.p_values[i]);
     }
+    BarcodeInfo info = all.info();
+    info.dims.assign(dims.begin(), dims.end());
+    bars.set_info(std::move(info));
   }
 
  private:
@@ -63,7 +66,7 @@ void Outputs::write_surfaces(const Alpha& alpha, PointsView points, std::span<co
   }
 }
 
-void Outputs::write(const Barcode& bars, const BarcodeInfo& info, const PlotOptions& look,
+void Outputs::write(const Barcode& bars, const BarData& data, const PlotOptions& look,
                     std::span<const std::string> trees, const RunContext& context) {
   auto tree = trees.begin();
   for (std::size_t i = 0; i < plots_.size(); ++i) {
@@ -77,14 +80,11 @@ void Outputs::write(const Barcode& bars, const BarcodeInfo& info, const PlotOpti
   // drawn.
   if (barcode_) {
     if (look.dims.empty()) {
-      write_barcode(barcode_->file(), bars, places_.format, info);
+      write_barcode(barcode_->file(), bars, places_.format, data);
     } else {
-      const Chosen chosen(bars, info, look.dims);
-      BarcodeInfo of_chosen = info;
-      of_chosen.dims = look.dims;
-      of_chosen.loops = chosen.loops;
-      of_chosen.p_values = chosen.p_values;
-      write_barcode(barcode_->file(), chosen.bars, places_.format, of_chosen);
+      const Chosen chosen(bars, data, look.dims);
+      write_barcode(barcode_->file(), chosen.bars, places_.format,
+                    {.loops = chosen.loops, .p_values = chosen.p_values});
     }
     barcode_->commit();
   }

@@ -15,9 +15,9 @@ class Outputs {
  public:
   /// @throws Error (cannot_create).
   explicit Outputs(const Places& places);
-  /// Writes and completes all files except the report.
+  /// Writes and completes all files except the report. @param data the loops and p-values of bars.
   /// @param look the look of the plots. @param trees the plots of merge trees, in their order.
-  void write(const Barcode& bars, const BarcodeInfo& info, const PlotOptions& look,
+  void write(const Barcode& bars, const BarData& data, const PlotOptions& look,
              std::span<const std::string> trees, const RunContext& context);
   /// Writes the surfaces of an alpha complex. They are completed with the other files.
   /// @param ids the numbers of the points in the input; if empty, they are the indices of the

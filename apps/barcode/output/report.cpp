@@ -60,14 +60,14 @@ report::Provenance provenance_of(const Shown& shown, const Job& job) {
   report::Provenance provenance;
   provenance.command = job.command;
   provenance.sha256 = shown.data.sha256;
-  provenance.run = shown.info;
+  provenance.run = shown.barcode.info();
   provenance.warnings = shown.warnings;
   auto& notes = provenance.notes;
   std::vector<std::string> assumed;
   for (const Message& note : shown.data.read.notes) assumed.push_back(note.in_words(app::kWords));
   if (!assumed.empty()) notes.emplace_back("Assumed", fmt::format("{}", fmt::join(assumed, "; ")));
-  if (!shown.info.vertex_weights.empty())
-    notes.emplace_back("Vertices enter late", shown.info.vertex_weights);
+  if (!shown.barcode.info().vertex_weights.empty())
+    notes.emplace_back("Vertices enter late", shown.barcode.info().vertex_weights);
   if (const auto hidden = hidden_points(shown.built)) notes.emplace_back("Hidden", *hidden);
   if (shown.promise)
     notes.emplace_back("Approximation", fmt::format("{}: {}", shown.data.name, *shown.promise));
@@ -129,7 +129,8 @@ std::vector<std::string> add_distances(report::Metadata& meta, std::span<const B
 
 void write_report(OutputFile& file, const Shown& shown, const Job& job, app::Session& session) {
   const auto tree = tree_if_it_fits(shown, session);
-  report::BarcodePage page{report::title_of(shown.info.input), shown.barcode, &shown.built.complex};
+  report::BarcodePage page{report::title_of(shown.barcode.info().input), shown.barcode,
+                           &shown.built.complex};
   page.form = shown.form;
   page.points = shown_points(shown);
   page.point_ids = shown.data.read.point_ids;
@@ -159,7 +160,7 @@ int run_comparison(const Job& job, app::Session& session) try {
     const Input input = Input::open(files::path_of(path), &session.context(),
                                     Input::Excess::refused, barcode_start_check());
     StoredBarcode stored = read_stored_barcode(input);
-    origin.add(path, stored.info);
+    origin.add(path, stored.bars.info());
     barcodes.push_back(std::move(stored.bars));
     meta.barcodes.push_back({report::title_of(path), barcodes.back().cell_kind()});
     meta.provenance.notes.emplace_back(

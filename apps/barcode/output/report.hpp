@@ -13,8 +13,7 @@ namespace ph::barcode {
 
 /// The contents of a barcode's report.
 struct Shown {
-  const Barcode& barcode;
-  const BarcodeInfo& info;
+  const Barcode& barcode;  ///< with its origin
   const NamedData& data;
   const BuiltComplex& built;
   std::optional<RipsForm> form;        ///< for a Rips complex

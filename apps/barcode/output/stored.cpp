@@ -42,8 +42,8 @@ Outcome run_stored(const Job& job, const Input& input, Outputs& outputs, app::Se
       throw Error(
           ErrorKind::usage,
           fmt::format("--plot-kind {}: makes sense for data only, found a barcode", plot.kind));
-  const StoredBarcode stored = read_stored_barcode(input);
-  const Barcode& barcode = stored.bars;
+  StoredBarcode stored = read_stored_barcode(input);
+  Barcode& barcode = stored.bars;
   const std::string description =
       fmt::format("a barcode, {}", app::count_of(barcode.size(), "bar"));
   const std::string what = fmt::format("read {}: {}", input.name(), description);
@@ -62,14 +62,12 @@ Outcome run_stored(const Job& job, const Input& input, Outputs& outputs, app::Se
   info.peak_memory = app::peak_memory();
   note_absent_dims(barcode, job.results.look, session);
   const app::BarHold results_are_written(session);
+  const bool superlevel = barcode.info().superlevel;
   // The program that converts the bars is not the program that computed them.
-  const bool is_known = !stored.info.program.empty();
   // mutant: stored-origin
-  BarcodeInfo origin = is_known ? stored.info : info;
-  origin.loops = stored.loops;
-  origin.p_values = stored.p_values;
-  const bool superlevel = stored.info.superlevel;
-  outputs.write(barcode, origin, look_of(job.results.look, superlevel), {}, session.context());
+  if (barcode.info().program.empty()) barcode.set_info(info);
+  outputs.write(barcode, {.loops = stored.loops, .p_values = stored.p_values},
+                look_of(job.results.look, superlevel), {}, session.context());
   if (!job.places.report.empty())
     write_stored_report(outputs.report(), input, barcode, info, superlevel, job, session);
   return {app::kOk, description};

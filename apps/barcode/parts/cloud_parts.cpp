@@ -19,22 +19,6 @@
 #include "ph/io/write.hpp"
 
 namespace ph::barcode {
-BarcodeInfo info_of(const CloudPart& part, const std::string& description,
-                    const std::string& input) {
-  BarcodeInfo info;
-  info.program = app::program_and_version("ph-barcode");
-  info.input = input;
-  info.input_description = description;
-  info.points = part.points();
-  info.coordinates = part.coordinates();
-  info.vertices = part.points();
-  info.complex = "rips";
-  info.metric = metric_name(PointDistance::euclidean);
-  info.threshold = part.threshold();
-  info.engine = Engine(Engine::union_find).name();
-  info.peak_memory = app::peak_memory();
-  return info;
-}
 
 Barcode bars_of(CloudPart whole, BarcodeFormat format, const RunContext& context) {
   if (format != BarcodeFormat::json) return whole.barcode(context);
@@ -95,9 +79,9 @@ Outcome join_cloud_parts(const std::vector<PartFile>& files, const Job& job,
                     "those given",
                     words, all->missing().front() + 1));
   Outputs outputs(job.places);
-  const BarcodeInfo info = info_of(
-      *all, fmt::format("{} points, {}", all->points(), app::count_of(files.size(), "part file")),
-      job.places.input);
+  const BarcodeInfo info = named(
+      all->info(),
+      fmt::format("{} points, {}", all->points(), app::count_of(files.size(), "part file")), job);
   return write_bars(bars_of(std::move(*all), job.places.format, context), info, outputs, job,
                     session);
 }

@@ -27,8 +27,4 @@ Outcome join_cloud_parts(const std::vector<PartFile>& files, const Job& job, app
 /// The bars of a complete cloud, with cells if the format shows them.
 Barcode bars_of(CloudPart whole, BarcodeFormat format, const RunContext& context);
 
-/// The description of a complete cloud in the JSON format.
-BarcodeInfo info_of(const CloudPart& whole, const std::string& description,
-                    const std::string& input);
-
 }  // namespace ph::barcode

@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "apps/barcode/arguments/scopes.hpp"
-#include "apps/barcode/complex/cubical_options.hpp"
 #include "apps/barcode/memory/forecast_text.hpp"
 #include "apps/barcode/parts/part_files.hpp"
 #include "apps/barcode/parts/part_input.hpp"
@@ -53,25 +52,6 @@ void join(ImagePart& all, ImagePart next, const std::string& before, const std::
 }
 
 }  // namespace
-
-BarcodeInfo info_of(const ImagePart& part, const std::string& description, const std::string& input,
-                    std::int64_t field) {
-  BarcodeInfo info;
-  info.program = app::program_and_version("ph-barcode");
-  info.input = input;
-  info.input_description = description;
-  info.shape = part.extents();
-  info.complex = "cubical";
-  info.field = field;
-  info.max_dim =
-      std::min(part.options().max_dim.value_or(0), static_cast<int>(part.extents().size()));
-  info.threshold = part.options().cubical.threshold;
-  describe(part.options().cubical, info);
-  info.min_dim = part.options().min_dim;
-  info.engine = Engine(Engine::gradient).name();
-  info.peak_memory = app::peak_memory();
-  return info;
-}
 
 std::optional<ImagePart> kept_image_part(const std::string& path, const PartInput& image, int part,
                                          int parts, app::Session& session) {
@@ -151,11 +131,12 @@ Outcome join_image_parts(std::vector<PartFile> files, const Job& job, app::Sessi
                 "--output-format: found json, which needs the cells of bars; --part with "
                 "--keep-cells stores the cells");
   Outputs outputs(job.places);
-  const BarcodeInfo info = info_of(all,
-                                   fmt::format("image {}, {}", fmt::join(all.extents(), " x "),
-                                               app::count_of(parts.size(), "part file")),
-                                   job.places.input, job.question.options.field);
-  return write_bars(all.barcode(context), info, outputs, job, session);
+  Barcode bars = all.barcode(context);
+  const BarcodeInfo info = named(bars.info(),
+                                 fmt::format("image {}, {}", fmt::join(all.extents(), " x "),
+                                             app::count_of(parts.size(), "part file")),
+                                 job);
+  return write_bars(std::move(bars), info, outputs, job, session);
 }
 
 }  // namespace ph::barcode

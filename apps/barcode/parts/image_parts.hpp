@@ -31,8 +31,4 @@ std::optional<ImagePart> kept_image_part(const std::string& path, const PartInpu
 /// the files, if parts do not belong together or some are missing.
 Outcome join_image_parts(std::vector<PartFile> files, const Job& job, app::Session& session);
 
-/// The facts about a complete image that the JSON output contains.
-BarcodeInfo info_of(const ImagePart& whole, const std::string& description,
-                    const std::string& input, std::int64_t field);
-
 }  // namespace ph::barcode

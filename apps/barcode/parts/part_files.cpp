@@ -7,6 +7,8 @@
 #include <utility>
 
 #include "apps/common/files/batch_names.hpp"
+#include "apps/common/system/process.hpp"
+#include "apps/common/terminal/build_information.hpp"
 #include "apps/common/terminal/exit_code.hpp"
 #include "apps/common/values/numbers.hpp"
 #include "ph/detail/core/files.hpp"
@@ -60,6 +62,14 @@ std::string write_part_file(app::Output& output, std::span<const std::byte> byte
   return format_size(static_cast<double>(bytes.size()));
 }
 
+BarcodeInfo named(BarcodeInfo info, const std::string& description, const Job& job) {
+  info.program = app::program_and_version("ph-barcode");
+  info.input = job.places.input;
+  info.input_description = description;
+  info.peak_memory = app::peak_memory();
+  return info;
+}
+
 Outcome write_bars(Barcode bars, BarcodeInfo info, Outputs& outputs, const Job& job,
                    app::Session& session) {
   info.min_persistence = job.question.options.min_persistence;  // mutant: json-min-persistence
@@ -67,7 +77,8 @@ Outcome write_bars(Barcode bars, BarcodeInfo info, Outputs& outputs, const Job& 
     bars = longer_than(job.question.options.min_persistence, bars);
   note_absent_dims(bars, job.results.look, session);
   const app::BarHold results_are_written(session);
-  outputs.write(bars, info, look_of(job.results.look, info.superlevel), {}, session.context());
+  bars.set_info(info);
+  outputs.write(bars, {}, look_of(job.results.look, info.superlevel), {}, session.context());
   return {app::kOk,
           fmt::format("{}: {}", info.input_description, app::count_of(bars.size(), "bar"))};
 }

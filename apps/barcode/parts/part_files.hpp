@@ -63,6 +63,9 @@ std::optional<std::invoke_result_t<OfBytes, std::span<const std::byte>>> kept_pa
 /// users.
 std::string write_part_file(app::Output& output, std::span<const std::byte> bytes);
 
+/// Adds to the origin of bars that parts gave: this program and its input.
+BarcodeInfo named(BarcodeInfo info, const std::string& description, const Job& job);
+
 /// Writes the bars of a complete result, without finite bars that are not longer than the user's
 /// limit.
 Outcome write_bars(Barcode bars, BarcodeInfo info, Outputs& outputs, const Job& job,

@@ -31,7 +31,7 @@ RankResult cloud_of_ranks(const Job& job, Transport& transport, app::Session& se
   const std::string description =
       fmt::format("{}, {}", cloud.data.read.description,
                   app::count_of(static_cast<std::size_t>(parts), "rank"));
-  const BarcodeInfo info = info_of(*whole, description, job.places.input);
+  const BarcodeInfo info = named(whole->info(), description, job);
   result.bars.emplace(RankBars{bars_of(std::move(*whole), job.places.format, context), info});
   return result;
 }

@@ -98,11 +98,11 @@ RankResult image_of_ranks(const Job& job, Transport& transport, app::Session& se
   if (!whole) return result;
   const std::string description = fmt::format(
       "{}, {}", input.description, app::count_of(static_cast<std::size_t>(parts), "rank"));
-  result.bars.emplace(
-      RankBars{whole->barcode(context),
-               info_of(*whole, description, job.places.input, job.question.options.field)});
-  add_bars(result.bars->bars, found);
-  result.bars->bars.sort(context);
+  RankBars& all = result.bars.emplace(RankBars{whole->barcode(context), {}});
+  all.info = named(all.bars.info(), description, job);
+  all.info.field = job.question.options.field;
+  add_bars(all.bars, found);
+  all.bars.sort(context);
   return result;
 }
 

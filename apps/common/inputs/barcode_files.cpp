@@ -92,7 +92,7 @@ StoredBarcodes::StoredBarcodes(const std::vector<std::string>& paths, Session& s
   for (const std::string& path : paths) {
     const Input input = open_input(path, session);
     StoredBarcode stored = read_stored_barcode(input);
-    origin.add(path, stored.info);
+    origin.add(path, stored.bars.info());
     barcodes_.push_back(std::move(stored.bars));
     session.explain(
         fmt::format("read {}: {}", input.name(), count_of(barcodes_.back().size(), "bar")));

@@ -151,10 +151,12 @@ void Outputs::write_file(File& file, const Cloud* cloud, const Segmentation& s, 
       return out.write(json_summary(arguments_, s, info));
     case OutputKind::tree:
       return out.write(extension_of(f.tree) == ".json" ? tree_json(s.tree) : tree_bytes(s.tree));
-    case OutputKind::barcode:
+    case OutputKind::barcode: {
+      const BarcodeInfo origin = barcode_info(s, info);
       return write_barcode(out.file(), s.barcode,
                            barcode_format_of_path(f.barcode).value_or(BarcodeFormat::csv),
-                           barcode_info(s, info));
+                           {.info = &origin});
+    }
     case OutputKind::plot:
       return out.write(plot(*file.plot, cloud, s, info, context));
     case OutputKind::coloured:

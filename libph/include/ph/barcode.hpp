@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
+#include "ph/detail/core/barcode_info.hpp"
 #include "ph/detail/core/names.hpp"
 #include "ph/filtration.hpp"
 #include "ph/run_context.hpp"
@@ -84,6 +87,7 @@ struct VoxelRange {
 /// The result of persistent homology: bars ordered by dimension, birth, death (infinite deaths
 /// last) and birth cell. Each bar has the cell that gave birth to it and, if it died, the cell that
 /// killed it, unless Options::cells is off. A barcode is a value: it owns everything that it shows.
+/// A computed barcode also states its origin, which copies of the barcode share.
 class Barcode {
  public:
   explicit Barcode(CellKind kind = CellKind::vertices) : kind_(kind) {}
@@ -128,6 +132,12 @@ class Barcode {
   std::span<const Index> birth_voxel(std::size_t i) const;
   /// The coordinates of the voxel whose value is the death of bar i; empty for an infinite bar.
   std::span<const Index> death_voxel(std::size_t i) const;
+
+  /// What was computed, of what, and how. Computations and readers of JSON state it; it is empty
+  /// for bars that were added by hand.
+  const BarcodeInfo& info() const;
+  /// Replaces the origin, of this barcode alone.
+  void set_info(BarcodeInfo info) { info_ = std::make_shared<const BarcodeInfo>(std::move(info)); }
 
   /// Makes room for `count` more bars.
   void reserve_more(std::size_t count) {
@@ -218,6 +228,7 @@ class Barcode {
   std::vector<std::int64_t> coefficients_;
   std::vector<VoxelSet> sets_;         // parallel to chains_, or empty if no bar has sets
   std::vector<std::uint32_t> voxels_;  // all stored voxels; the sets are ranges, which may overlap
+  std::shared_ptr<const BarcodeInfo> info_;  // null if the origin is unknown
 };
 
 }  // namespace ph

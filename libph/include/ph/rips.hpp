@@ -149,6 +149,10 @@ class Rips {
   Index size() const;  ///< number of points of the input, or of vertices of the given graph
   const RipsOptions& options() const;
   std::optional<PointsView> points() const;  ///< empty if it was made from distances or a graph
+  /// The number of coordinates of each point, and the kind of distance as in BarcodeInfo::metric.
+  /// Both stay known after the input is freed. @return no coordinates for distances or a graph.
+  std::optional<Index> coordinates() const;
+  std::string metric() const;
   /// True if it holds points or distances that were not freed.
   bool has_input() const;
   bool has_births() const;  ///< true if vertices enter at births of their own

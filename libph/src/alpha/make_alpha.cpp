@@ -56,6 +56,7 @@ AlphaCells alpha_cells(PointsView points, std::span<const double> weights,
   std::pmr::memory_resource* const memory = &context.memory;
   AlphaCells cells(sites_of(points, weights, context, largest), memory);
   cells.is_periodic = is_periodic && cells.sites.size() > 0;
+  if (cells.is_periodic) cells.period.assign(period.begin(), period.end());
   std::optional<Images> images;
   if (cells.is_periodic) {
     auto periodic = triangulate_periodic(

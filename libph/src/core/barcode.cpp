@@ -56,6 +56,11 @@ void Barcode::set_representative(Representatives kind, std::span<const Index> nu
   chains_.push_back({cells, {begin, coefficients_.size()}});
 }
 
+const BarcodeInfo& Barcode::info() const {
+  static const BarcodeInfo unknown;
+  return info_ ? *info_ : unknown;
+}
+
 std::size_t Barcode::store_voxels(std::span<const std::uint32_t> places) {
   const std::size_t begin = voxels_.size();
   voxels_.insert(voxels_.end(), places.begin(), places.end());

@@ -83,6 +83,9 @@ Barcode with_input_ids(const Barcode& barcode, const std::vector<Index>& ids) {
         barcode, i, result, [](const Numbers&) { return true; }, rename);
   }
   result.sort();
+  BarcodeInfo info = barcode.info();
+  if (info.alpha) rename(info.alpha->hidden);
+  result.set_info(std::move(info));
   return result;
 }
 
@@ -123,6 +126,10 @@ Barcode cut_at(const Barcode& barcode, const ExplicitComplex& complex, double th
         [](Numbers&) {});
   }
   result.sort();
+  BarcodeInfo info = barcode.info();
+  info.threshold = threshold;
+  info.min_persistence = min_persistence;
+  result.set_info(std::move(info));
   return result;
 }
 

@@ -60,12 +60,17 @@ Barcode detail::run_rips(const Rips& rips, const RunPlan& plan, const RunContext
   options.collapse = Collapse::off;  // edges are collapsed in this function or not at all
   const auto compute_graph = [&](const RipsGraph& graph) {
     return with_rips_filtration(graph, *options.max_dim, [&](const auto& filtration) {
-      return compute(filtration, options, context);
+      return bars_of(filtration, plan_for(filtration, options), options, context);
     });
   };
   const RipsGraph& graph = graph_of(rips, plan, context);
-  return plan.options.collapse == Collapse::on ? compute_graph(collapse_edges(graph, context))
-                                               : compute_graph(graph);
+  Barcode bars = plan.options.collapse == Collapse::on
+                     ? compute_graph(collapse_edges(graph, context))
+                     : compute_graph(graph);
+  BarcodeInfo info = info_of_task(options, *options.max_dim, options.engine);
+  describe(rips, plan, info, context);
+  bars.set_info(std::move(info));
+  return bars;
 }
 
 RunPlan plan(const AnyComplex& complex, const Options& options, const RunContext& context) {

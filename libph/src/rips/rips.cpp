@@ -172,6 +172,12 @@ struct Rips::State {
         options(std::move(wanted)),
         context(&counting) {
     check_options(input->data, options, counting);
+    if (const auto* points = std::get_if<HeldPoints>(&input->data)) {
+      coordinates = points->view.cols();
+      metric = metric_name(options.distance, options.minkowski_p);
+    } else if (std::holds_alternative<HeldMetric>(input->data)) {
+      metric = "function";
+    }
   }
   explicit State(RipsGraph&& graph) : size(graph.size()), given(std::move(graph)) {}
 
@@ -202,6 +208,8 @@ struct Rips::State {
   // The pointer is null if a graph was given, or if the input was freed.
   std::shared_ptr<const detail::HeldInput> input;
   Index size;
+  std::optional<Index> coordinates;  // of points
+  std::string metric = "precomputed";
   RipsOptions options;
   const RunContext* context = &default_context();
   std::optional<RipsGraph> given;
@@ -245,6 +253,9 @@ std::optional<PointsView> Rips::points() const {
   const auto* points = std::get_if<HeldPoints>(&state_->input->data);
   return points ? std::optional(points->view) : std::nullopt;
 }
+
+std::optional<Index> Rips::coordinates() const { return state_->coordinates; }
+std::string Rips::metric() const { return state_->metric; }
 
 bool Rips::has_input() const { return state_->input != nullptr; }
 

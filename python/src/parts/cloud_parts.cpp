@@ -45,12 +45,10 @@ Bars cloud_part_bars(const py::bytes& bytes, bool cells, const RunOptions& optio
     if (!part.is_whole())
       throw Error(ErrorKind::bad_data, fmt::format("parts of a cloud: found {} of {}, expected all",
                                                    part.present().size(), part.parts()));
-    Facts facts;
-    facts.engine = Engine(Engine::union_find).name();
-    facts.threshold = part.threshold();
+    BarcodeInfo info = part.info();
     Bars bars{cells ? persistence(std::move(part).rips(context), {.max_dim = 0}, context)
                     : part.barcode(context)};
-    bars.facts = std::move(facts);
+    bars.barcode.set_info(std::move(info));
     return bars;
   });
 }

@@ -37,17 +37,15 @@ class Watched {
 
 }  // namespace
 
-Facts facts_of(const ImagePart& part) {
-  Facts facts;
-  facts.engine = Engine(Engine::gradient).name();
-  facts.threshold = part.options().cubical.threshold;
-  facts.max_dim =
-      std::min(part.options().max_dim.value_or(0), static_cast<int>(part.extents().size()) - 1);
-  return facts;
+int highest_dim(const ImagePart& part) {
+  return std::min(part.options().max_dim.value_or(0), static_cast<int>(part.extents().size()) - 1);
 }
 
 RunningLoops::RunningLoops(HeldPart& held, std::int64_t field, const RunOptions& options)
-    : recipe_(held.recipe), of_part_(held.context), facts_(facts_of(held.part)), field_(field) {
+    : recipe_(held.recipe),
+      of_part_(held.context),
+      max_dim_(highest_dim(held.part)),
+      field_(field) {
   run(options, false, [&](const RunContext& call) {
     context_.threads = call.threads;
     context_.memory.set_limit(call.memory.limit());
@@ -130,7 +128,7 @@ Bars RunningLoops::bars(const RunOptions& options) {
     if (has_news_)
       refuse("found messages that were not taken, expected a call when all work is done");
     Bars bars{loops_->barcode()};
-    bars.facts = facts_;
+    bars.set_max_dim(max_dim_);
     bars.field = field_;
     return bars;
   });

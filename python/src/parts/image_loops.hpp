@@ -16,8 +16,8 @@
 
 namespace ph::python {
 
-/// The facts about the bars of a part that are known before the bars are computed.
-Facts facts_of(const ImagePart& part);
+/// The highest dimension of the bars of an image.
+int highest_dim(const ImagePart& part);
 
 /// A part of a volume with the voxels of its array, until ImageLoops takes them.
 struct HeldPart {
@@ -54,7 +54,7 @@ class RunningLoops {
 
   py::object recipe_;
   SharedContext of_part_;
-  Facts facts_;
+  int max_dim_;
   std::int64_t field_;
   RunContext context_;
   std::optional<ImageLoops> loops_;

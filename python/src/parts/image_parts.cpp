@@ -67,7 +67,7 @@ Bars image_part_bars(const py::bytes& bytes, const std::vector<const Bars*>& loo
     Bars bars{part.barcode(context)};
     for (const Bars* some : loops) add_bars(bars.barcode, some->barcode);
     if (!loops.empty()) bars.barcode.sort(context);
-    bars.facts = facts_of(part);
+    bars.set_max_dim(highest_dim(part));
     bars.field = field;
     return bars;
   });

@@ -96,16 +96,17 @@ py::tuple loops_of(const Bars& bars, std::int64_t i) {
 
 /// The facts about the computation under the names that `Barcode.meta` gives them.
 py::dict facts_of(const Bars& bars) {
-  const Facts& facts = bars.facts;
+  const BarcodeInfo& info = bars.barcode.info();
   py::dict named;
-  named["max_dim"] = facts.max_dim;
-  if (facts.threshold) named["threshold"] = *facts.threshold;
-  named["engine"] = facts.engine;
-  if (facts.collapses) named["collapsed"] = true;
-  if (facts.vertices) named["vertices"] = *facts.vertices;
-  if (facts.edges) named["edges"] = *facts.edges;
-  if (facts.covering_radius) named["covering_radius"] = *facts.covering_radius;
-  if (!facts.hidden.empty()) named["hidden"] = py::tuple(py::cast(facts.hidden));
+  named["max_dim"] = info.max_dim;
+  if (info.threshold) named["threshold"] = *info.threshold;
+  named["engine"] = info.engine;
+  if (info.collapsed) named["collapsed"] = true;
+  if (info.vertices) named["vertices"] = *info.vertices;
+  if (info.edges) named["edges"] = *info.edges;
+  if (info.subsample) named["covering_radius"] = info.subsample->covering_radius;
+  if (info.alpha && !info.alpha->hidden.empty())
+    named["hidden"] = py::tuple(py::cast(info.alpha->hidden));
   return named;
 }
 
@@ -160,6 +161,12 @@ auto block_of_bar(Numbers&& numbers) {
 Bars::Range Bars::range_of(int dim) const {
   const auto range = std::ranges::equal_range(barcode.begin(), barcode.end(), dim, {}, &Bar::dim);
   return {static_cast<std::size_t>(range.begin() - barcode.begin()), range.size()};
+}
+
+void Bars::set_max_dim(int max_dim) {
+  BarcodeInfo info = barcode.info();
+  info.max_dim = max_dim;
+  barcode.set_info(std::move(info));
 }
 
 void bind_bars(py::module_& m) {

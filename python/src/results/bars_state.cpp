@@ -167,7 +167,8 @@ Enum choice_of(const py::dict& state, const char* name, Enum last) {
 Bars selected(const Bars& bars, const std::vector<std::int64_t>& places) {
   const Barcode& all = bars.barcode;
   const std::span<const std::uint32_t> voxels = all_voxels(all);
-  Bars chosen{Barcode(all.cell_kind()), {}, bars.facts, bars.field};
+  Bars chosen{Barcode(all.cell_kind()), {}, bars.field};
+  chosen.barcode.set_info(all.info());
   chosen.barcode.store_voxels(voxels);
   for (const std::int64_t place : places) {
     if (place < 0 || static_cast<std::size_t>(place) >= all.size())

@@ -191,7 +191,9 @@ py::dict facts(const SegmentedScene& scene) {
 
 Bars barcode(const SegmentedScene& scene) {
   Bars bars{scene.result.barcode};
-  bars.facts.engine = "union-find";
+  BarcodeInfo info;
+  info.engine = "union-find";
+  bars.barcode.set_info(std::move(info));
   return bars;
 }
 
@@ -200,7 +202,7 @@ Bars signature(const SegmentedScene& scene, const std::vector<std::uint32_t>& la
   Bars bars = run(options, false, [&](const RunContext& context) {
     return Bars{segment::signature(scene.result.tree, scene.result.cut, labels, context)};
   });
-  bars.facts.max_dim = 2;
+  bars.set_max_dim(2);
   return bars;
 }
 

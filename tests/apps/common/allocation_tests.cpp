@@ -188,7 +188,7 @@ class Allocation : public testing::Test {
     BarcodeInfo info;
     info.program = "a name that is too long for a small string";
     info.timings = {{"read", 0.5}};
-    write_barcode(file, bars, format, info);
+    write_barcode(file, bars, format, {.info = &info});
     file.commit();
   }
   void write_text(const std::string& name, const std::function<void(std::ostream&)>& put_to) const {

@@ -8,6 +8,7 @@
 #include <numeric>
 #include <thread>
 
+#include "ph/detail/facade/adjust.hpp"
 #include "ph/detail/facade/alpha_engines.hpp"
 #include "tests/libph/alpha/alpha_oracle.hpp"
 #include "tests/libph/alpha/alpha_support.hpp"
@@ -397,6 +398,26 @@ TEST(Alpha, StopsAndKeepsToItsMemory) {
   RunContext of_plane;
   Alpha(uniform_points(20'000, 2, 11), {}, of_plane);
   EXPECT_GT(of_plane.memory.peak(), 20'000U * 200);
+}
+
+TEST(Alpha, BarsStateTheirOrigin) {
+  const std::vector<double> square{0, 0, 1, 0, 1, 1, 0, 1};
+  const PointsView points(square.data(), 4, 2);
+  const BarcodeInfo plain = persistence(Alpha(points, {.threshold = 2})).info();
+  EXPECT_EQ(plain.complex, "alpha");
+  EXPECT_EQ(plain.points, 4);
+  EXPECT_EQ(plain.coordinates, 2);
+  EXPECT_EQ(plain.threshold, 2);
+  const BarcodeInfo torus = persistence(Alpha(points, {.period = {4, 0}})).info();
+  ASSERT_TRUE(torus.alpha);
+  EXPECT_EQ(torus.alpha->period, (std::vector<double>{4, 0}));
+  // The ball of point 0 hides the others. In the input, they have other numbers.
+  const Alpha weighted(points, {.weights = {9, 0, 0, 0}, .unit = AlphaOptions::Unit::squared});
+  const Barcode bars = persistence(weighted);
+  EXPECT_EQ(bars.info().vertex_weights, "squared radii of balls, given");
+  ASSERT_TRUE(bars.info().alpha);
+  EXPECT_EQ(bars.info().alpha->hidden, (std::vector<Index>{1, 2, 3}));
+  EXPECT_EQ(with_input_ids(bars, {0, 2, 3, 7}).info().alpha->hidden, (std::vector<Index>{2, 3, 7}));
 }
 
 }  // namespace

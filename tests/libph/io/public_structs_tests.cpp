@@ -172,10 +172,8 @@ TEST(PublicStructs, LoopsOfBars) {
       if (has_chain)
         bars.set_representative(Representatives::cycles, std::vector<Index>(numbers, 0),
                                 std::vector<std::int64_t>{1});
-      BarcodeInfo info;
-      info.loops = loops;
       OutputFile file("/dev/null");
-      write_barcode(file, bars, BarcodeFormat::json, info);
+      write_barcode(file, bars, BarcodeFormat::json, {.loops = loops});
       file.commit();
     };
   };

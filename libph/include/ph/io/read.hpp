@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "ph/detail/core/barcode_info.hpp"
 #include "ph/detail/core/names.hpp"
 #include "ph/detail/io/reader.hpp"
 #include "ph/distance_matrix.hpp"

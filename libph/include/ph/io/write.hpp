@@ -28,83 +28,15 @@ enum class BarcodeFormat {
   none,    ///< nothing
 };
 
-// The next structs are not nested in BarcodeInfo, which has aliases for them: Clang does not let
-// std::optional make an object whose members have initialisers while the enclosing class is
-// incomplete.
-
-/// A subsample: `points` points, chosen from `of` points.
-struct BarcodeSubsample {
-  Index points = 0, of = 0;
-  double covering_radius = 0;
-};
-
-/// The grid of voxels into which points were converted.
-struct BarcodeVoxelGrid {
-  double voxel = 0;           ///< edge length
-  std::vector<double> first;  ///< centre of the voxel at (0, ..., 0), in the points' coordinates
-  std::string value;          ///< "distance", "occupancy" or "density"
-};
-
-/// Facts about an alpha complex: its values, its space and its hidden points.
-struct BarcodeAlphaValues {
-  bool squared = false;  ///< values are squares of radii
-  /// Length of each axis, 0 if the axis does not close up; empty if no axis does.
-  std::vector<double> period;
-  std::vector<Index> hidden;  ///< points that are not part of the complex
-};
-
-/// The origin of a barcode: everything that the JSON format states in addition to the bars. Empty
-/// members are left out; if `complex` is empty, the field of coefficients, the dimension and the
-/// threshold are left out as well.
-struct BarcodeInfo {
-  std::string program;               ///< name and version
-  std::string input;                 ///< path of the input
-  std::string input_description;     ///< "1024 points in R^3, CSV"
-  std::optional<Index> points;       ///< the number of points of the input
-  std::optional<Index> coordinates;  ///< the number of coordinates of each point
-  std::vector<Index> shape;          ///< extents of an image
-  std::optional<Affine> affine;      ///< of an image, see ReadResult::affine
-  bool nan_dropped = false;          ///< points or voxels with NaN were left out
-  std::string complex;               ///< "rips", "cubical", "explicit", "lower-star", "alpha", …
-  std::int64_t field = 2;
-  int max_dim = 0;
-  std::optional<double> threshold;
-  std::optional<Index> vertices;     ///< of a Rips complex
-  std::optional<std::size_t> edges;  ///< of a Rips complex, unless only points are held
-  bool collapsed = false;            ///< edges were collapsed
-  /// For a Rips complex, the kind of distance: "euclidean", "minkowski:3", see metric_name;
-  /// "precomputed" (given by the user), "function" (a function of the user).
-  std::string metric;
-  /// For an image, the construction: "vertices" or "cells", see CubicalOptions::Construction.
-  std::string construction;
-  std::vector<int> periodic;  ///< axes of an image that close up
-  /// If vertices have births, the source of the births and the weight exponent: "dtm 5, exponent
-  /// 1".
-  std::string vertex_weights;
-  /// The subsample, if the points were chosen by a greedy permutation; see
-  /// ph/greedy_permutation.hpp.
-  using Subsample = BarcodeSubsample;
-  std::optional<Subsample> subsample;
-  /// The grid of voxels, if points were converted into an image; see ph/voxel_image.hpp.
-  using VoxelGrid = BarcodeVoxelGrid;
-  std::optional<VoxelGrid> voxels;
-  /// Set for an alpha complex, or for another complex of the Delaunay triangulation.
-  using AlphaValues = BarcodeAlphaValues;
-  std::optional<AlphaValues> alpha;
-  bool superlevel = false;              ///< values are the negated values of the image
-  std::optional<double> approximation;  ///< epsilon of a sparse Rips filtration
-  /// The loops of each bar, as ph::loops returns them, which are written next to the cycles. Empty
-  /// if there are none.
-  std::span<const BarLoops> loops;
+/// What is known about each bar in addition to the barcode. It is written next to the bars.
+struct BarData {
+  /// The loops of each bar, as ph::loops returns them; only JSON stores them. Empty if there are
+  /// none.
+  std::span<const BarLoops> loops = {};
   /// The p-value of each bar, written in CSV and JSON; NaN if a bar has none. Empty if no bar has
   /// one.
-  std::span<const double> p_values;
-  std::optional<double> min_persistence;  ///< bars of this length or less were left out
-  int min_dim = 0;                        ///< bars of lower dimensions were left out
-  std::vector<int> dims;  ///< if not empty, bars of all other dimensions were left out
-  std::string engine;
-  std::vector<std::pair<std::string, double>> timings;  ///< each stage with its seconds
-  std::uint64_t peak_memory = 0;                        ///< bytes; 0 if unknown
+  std::span<const double> p_values = {};
+  const BarcodeInfo* info = nullptr;  ///< an origin to state in place of Barcode::info; may be null
 };
 
 /// One line of the table of barcode formats.
@@ -125,15 +57,16 @@ std::optional<BarcodeFormat> barcode_format_named(std::string_view name);
 /// .diagram, .npy), or nothing for an unknown one. Case does not matter.
 std::optional<BarcodeFormat> barcode_format_of_path(std::string_view path);
 
-/// Writes a barcode; the caller commits the file.
+/// Writes a barcode; the caller commits the file. JSON states the origin, Barcode::info.
 /// @throws Error (io) as OutputFile; Error (usage) on loops or p-values that do not belong to these
 ///         bars.
 void write_barcode(OutputFile& file, const Barcode& barcode, BarcodeFormat format,
-                   const BarcodeInfo& info = {});
+                   const BarData& data = {});
 
-/// Reads a barcode file of any format, which may be compressed with gzip. Cells and representatives
-/// are read from JSON; the other formats store none. `pers` is accepted with and without GUDHI's
-/// leading column of the characteristic; Ripser's text may have anything before its first heading.
+/// Reads a barcode file of any format, which may be compressed with gzip. Cells, representatives
+/// and the origin, Barcode::info, are read from JSON; the other formats store none. `pers` is
+/// accepted with and without GUDHI's leading column of the characteristic; Ripser's text may have
+/// anything before its first heading.
 /// @param format if empty, decided by content, then by extension. @param path "-" is standard
 /// input.
 /// @return the bars in the order of Barcode.
@@ -150,10 +83,8 @@ Input::StartCheck barcode_start_check(std::optional<BarcodeFormat> format = std:
 /// A barcode with everything that its file says about it.
 struct StoredBarcode {
   Barcode bars;
-  std::vector<BarLoops> loops = {};   ///< of each bar, as BarcodeInfo::loops; only JSON stores them
-  std::vector<double> p_values = {};  ///< of each bar, as BarcodeInfo::p_values; from JSON and CSV
-  /// Only JSON states facts. The loops and p-values are above.
-  BarcodeInfo info = {};
+  std::vector<BarLoops> loops = {};   ///< of each bar, as BarData::loops; only JSON stores them
+  std::vector<double> p_values = {};  ///< of each bar, as BarData::p_values; from JSON and CSV
   /// Data of the file that are not kept here: names of unknown JSON members, the name of a column
   /// ("persistence"), or "birth and death voxels" (NPY).
   std::vector<std::string> left_out = {};

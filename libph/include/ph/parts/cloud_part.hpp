@@ -93,6 +93,8 @@ class CloudPart {
   /// @throws Error (bad_data) if the parts lack edges of the forest. This is noticed, because every
   ///         part knows which points must be joined, and how long the edges between them are.
   Barcode barcode(const RunContext& context = default_context()) const;
+  /// The origin of the bars, which is also the origin of bars of `rips`.
+  BarcodeInfo info() const;
   /// The filtration of the entire cloud, held only as its minimum spanning forest: for
   /// `persistence` with max_dim 0 and cells, and for `merge_tree`. Precondition: is_whole().
   /// @throws Error (bad_data) as barcode, (resource) as Rips.

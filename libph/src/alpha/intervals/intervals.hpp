@@ -89,6 +89,7 @@ struct AlphaCells {
 
   Sites sites;
   bool is_periodic = false;                ///< true if the triangulation is a Delta-complex
+  std::vector<double> period;              ///< as in AlphaOptions; empty if no axis closes up
   std::pmr::vector<std::uint32_t> hidden;  ///< points of the input that belong to no cell
   Triangulation triangulation;
   RawVector<double> cell_values;  ///< indexed by cell of the triangulation

@@ -11,6 +11,7 @@
 #include "libph/src/facade/parts/cloud_state.hpp"
 #include "libph/src/metric/blocks/cloud_blocks.hpp"
 #include "ph/barcode.hpp"
+#include "ph/detail/facade/describe.hpp"
 #include "ph/detail/metric/metric.hpp"
 #include "ph/detail/metric/spanning_forest.hpp"
 #include "ph/detail/rips/rips_graph.hpp"
@@ -187,6 +188,16 @@ void CloudPart::State::check_joined() const {
                 "parts of one cloud whose points did not change between the parts");
 }
 
+BarcodeInfo CloudPart::info() const {
+  BarcodeInfo info = detail::info_of_task({}, 0, Engine::union_find);
+  info.complex = "rips";
+  info.metric = metric_name(PointDistance::euclidean);
+  info.points = info.vertices = points();
+  info.coordinates = coordinates();
+  info.threshold = threshold();
+  return info;
+}
+
 // Each edge of the forest kills one component. All components are born at 0.
 Barcode CloudPart::barcode(const RunContext& context) const {
   state_->check_joined();
@@ -199,6 +210,7 @@ Barcode CloudPart::barcode(const RunContext& context) const {
   bars.reserve_more(count);
   for (auto edge = first; edge != edges.end(); ++edge) bars.add({0, 0, edge->value});
   for (std::size_t i = 0; i < immortal; ++i) bars.add({0, 0, kInfinity});
+  bars.set_info(info());
   return bars;
 }
 

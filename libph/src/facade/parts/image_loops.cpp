@@ -22,9 +22,10 @@ using cubical::GridCell;
 using cubical::PartLoops;
 
 struct ImageLoops::State {
-  State(const ImagePart::State& of, cubical::OwnLayers layers, std::int64_t field,
+  State(const ImagePart::State& of, cubical::OwnLayers layers, std::int64_t characteristic,
         const RunContext& run_context)
       : whole(of.whole),
+        field(characteristic),
         shape(of.whole.image()),
         part(of.first),
         context(run_context),
@@ -41,6 +42,7 @@ struct ImageLoops::State {
   }
 
   cubical::WholeImage whole;
+  std::int64_t field;
   cubical::GridShape shape;
   int part;
   const RunContext& context;
@@ -124,6 +126,9 @@ Barcode ImageLoops::barcode() const {
   state_->with_loops([&](const auto& loops) { loops.finish(pairs); });
   pairs.finish();
   bars.sort(state_->context);
+  BarcodeInfo info = state_->whole.info();
+  info.field = state_->field;
+  bars.set_info(std::move(info));
   return bars;
 }
 

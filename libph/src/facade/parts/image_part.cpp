@@ -281,6 +281,7 @@ Barcode ImagePart::barcode(const RunContext& context) const {
   state_->pairs.finish(pairs);
   pairs.finish();
   all.sort(context);
+  all.set_info(state_->whole.info());
   return all;
 }
 

@@ -16,6 +16,7 @@
 #include "libph/src/cubical/slabs/free_cells.hpp"
 #include "libph/src/cubical/slabs/layer_pairs.hpp"
 #include "libph/src/image/voxels_in_use.hpp"
+#include "ph/detail/facade/describe.hpp"
 #include "ph/parts/image_part.hpp"
 
 namespace ph {
@@ -46,6 +47,14 @@ struct WholeImage {
     image.superlevel = superlevel;
     image.limit = limit;
     return image;
+  }
+  /// The origin of its bars.
+  BarcodeInfo info() const {
+    BarcodeInfo info =
+        detail::info_of_task({.min_dim = min_dim},
+                             std::min(max_dim, static_cast<int>(extents.size())), Engine::gradient);
+    detail::describe(image(), info);
+    return info;
   }
   BarRequest wanted() const { return {min_dim, max_dim, cells}; }
   ImagePartOptions options() const {

@@ -54,16 +54,17 @@ std::optional<BarcodeFormat> barcode_format_of_path(std::string_view path) {
 }
 
 void write_barcode(OutputFile& file, const Barcode& barcode, BarcodeFormat format,
-                   const BarcodeInfo& info) {
-  if (!info.p_values.empty() && info.p_values.size() != barcode.size())
+                   const BarData& data) {
+  const BarcodeInfo& info = data.info != nullptr ? *data.info : barcode.info();
+  if (!data.p_values.empty() && data.p_values.size() != barcode.size())
     throw Error(ErrorKind::usage,
                 fmt::format("p_values: found {}, expected one for each of {} bars, or none",
-                            info.p_values.size(), barcode.size()));
+                            data.p_values.size(), barcode.size()));
   switch (format) {
     case BarcodeFormat::csv:
-      return write_barcode_csv(file, barcode, info);
+      return write_barcode_csv(file, barcode, info, data.p_values);
     case BarcodeFormat::json:
-      return write_barcode_json(file, barcode, info);
+      return write_barcode_json(file, barcode, info, data);
     case BarcodeFormat::ripser:
       return write_barcode_ripser(file, barcode, info.max_dim);
     case BarcodeFormat::pers:

@@ -210,8 +210,9 @@ std::string json_heading(const Barcode& barcode, const BarcodeInfo& info) {
 
 }  // namespace
 
-void write_barcode_json(OutputFile& file, const Barcode& barcode, const BarcodeInfo& info) {
-  check_loops(barcode, info.loops);
+void write_barcode_json(OutputFile& file, const Barcode& barcode, const BarcodeInfo& info,
+                        const BarData& data) {
+  check_loops(barcode, data.loops);
   const bool with_chains = barcode.representatives() != Representatives::none;
   file.write(fmt::format("{{\n  {},\n  \"bars\": [", json_heading(barcode, info)));
   for (std::size_t i = 0; i < barcode.size(); ++i) {
@@ -221,16 +222,16 @@ void write_barcode_json(OutputFile& file, const Barcode& barcode, const BarcodeI
                            json_value(bar.birth), json_value(bar.death)));
     file.write(fmt::format("\"birth_cell\": {}, \"death_cell\": {}",
                            json_cell(barcode.birth_cell(i)), json_cell(barcode.death_cell(i))));
-    if (!info.p_values.empty() && !std::isnan(info.p_values[i]))
-      file.write(fmt::format(", \"p\": {}", json::number(info.p_values[i])));
+    if (!data.p_values.empty() && !std::isnan(data.p_values[i]))
+      file.write(fmt::format(", \"p\": {}", json::number(data.p_values[i])));
     if (barcode.representatives() == Representatives::voxels) {
       write_voxels(file, barcode, i);
     } else if (with_chains) {
       file.write(", \"representative\": ");
       write_chain(file, barcode.representative(i));
     }
-    if (!info.loops.empty() && !info.loops[i].loops.empty())
-      write_loops(file, info.loops[i], barcode.representative(i).cell(0));
+    if (!data.loops.empty() && !data.loops[i].loops.empty())
+      write_loops(file, data.loops[i], barcode.representative(i).cell(0));
     file.write("}");
   }
   file.write(barcode.empty() ? "],\n" : "\n  ],\n");

@@ -22,7 +22,8 @@ class Reader {
 
   StoredBarcode read() {
     StoredBarcode stored;
-    shape_ = &stored.info.shape;
+    BarcodeInfo info;
+    shape_ = &info.shape;
     bool format = false, bars = false;
     json_.for_each_member([&](const std::string& name) {
       const std::size_t place = json_.place();
@@ -42,7 +43,7 @@ class Reader {
         if (bars) json_.fail(place, {"bars", "a second list", "one", {}});
         bars = true;
         read_bars();
-      } else if (!read_barcode_info(json_, name, stored.info)) {
+      } else if (!read_barcode_info(json_, name, info)) {
         skip(name);
       }
     });
@@ -54,6 +55,7 @@ class Reader {
                    {}});
     }
     stored.bars = std::move(barcode_);
+    stored.bars.set_info(std::move(info));
     stored.loops = std::move(loops_);
     stored.p_values = std::move(p_values_);
     stored.left_out.assign(skipped_.begin(), skipped_.end());

@@ -113,8 +113,8 @@ class PlaceColumns {
 
 }  // namespace
 
-void write_barcode_csv(OutputFile& file, const Barcode& barcode, const BarcodeInfo& info) {
-  const std::span<const double> p_values = info.p_values;
+void write_barcode_csv(OutputFile& file, const Barcode& barcode, const BarcodeInfo& info,
+                       std::span<const double> p_values) {
   const bool has_p = !p_values.empty();
   std::optional<PlaceColumns> places;
   if (barcode.representatives() == Representatives::voxels && !info.shape.empty())

@@ -142,7 +142,7 @@ TEST(ReadBarcode, JsonSaysWhereItCameFrom) {
  "alpha": {"squared": true, "period": [2, 0], "hidden": [3, 5], "x": []}, "superlevel": true,
  "engine": "twist", "shape": "round", "timings": {"read": 0.5, "plan": 1}, "peak_memory": 77,
  "bars": [{"dim": 1, "birth": 0, "death": 1, "loops": []}]})");
-  const BarcodeInfo& info = read.info;
+  const BarcodeInfo& info = read.bars.info();
   EXPECT_EQ(info.program, "p 1");
   EXPECT_EQ(info.input, "a");
   EXPECT_EQ(info.input_description, "d");
@@ -186,13 +186,13 @@ TEST(ReadBarcode, JsonSaysWhereItCameFrom) {
   EXPECT_TRUE(stored(R"({"format": "ph-barcode", "superlevel": false, "bars": []})").bars.empty());
   // If a file does not state a fact, the fact is unknown and is not written.
   const StoredBarcode bare = stored(R"({"format": "ph-barcode", "bars": [], "threshold": null})");
-  EXPECT_EQ(bare.info.complex, "");
-  EXPECT_EQ(bare.info.threshold, std::nullopt);
+  EXPECT_EQ(bare.bars.info().complex, "");
+  EXPECT_EQ(bare.bars.info().threshold, std::nullopt);
   const std::string text = text_of(bare.bars, BarcodeFormat::json);
   for (const char* member : {"complex", "field", "max_dim", "threshold", "engine"})
     EXPECT_FALSE(contains(text, std::string("\"") + member)) << member;
-  EXPECT_EQ(stored(R"({"format": "ph-barcode", "bars": [], "threshold": "-inf"})").info.threshold,
-            -kInfinity);
+  const auto lowest = stored(R"({"format": "ph-barcode", "bars": [], "threshold": "-inf"})");
+  EXPECT_EQ(lowest.bars.info().threshold, -kInfinity);
 }
 
 TEST(ReadBarcode, JsonRefusesDamage) {

@@ -31,7 +31,7 @@ class BarcodeIo : public testing::Test {
   }
   std::string text_of(const Barcode& barcode, BarcodeFormat format, const BarcodeInfo& info = {}) {
     OutputFile file(path("barcode"));
-    write_barcode(file, barcode, format, info);
+    write_barcode(file, barcode, format, {.info = &info});
     file.commit();
     return read("barcode");
   }

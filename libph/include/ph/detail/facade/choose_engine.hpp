@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <algorithm>
+#include <string>
+#include <string_view>
+#include <utility>
 
+#include "ph/detail/facade/describe.hpp"
 #include "ph/detail/facade/engine_list.hpp"
 #include "ph/error.hpp"
 
@@ -81,15 +85,27 @@ inline RunPlan run_plan(Options options, int max_dim, Engine engine, std::string
   return {std::move(options), std::nullopt, std::string(reason), {}};
 }
 
-/// The barcode, computed by one of the engines of the filtration without an edge collapse.
+/// The barcode without its origin, computed as planned and without an edge collapse.
 template <Filtration F>
-Barcode compute(const F& filtration, const Options& options, const RunContext& context) {
-  const auto [max_dim, choice] = plan_for(filtration, options);
-  BarcodeBuilder<F> bars(filtration, max_dim, options.min_persistence, options.representatives,
+Barcode bars_of(const F& filtration, const Plan<F>& plan, const Options& options,
+                const RunContext& context) {
+  BarcodeBuilder<F> bars(filtration, plan.max_dim, options.min_persistence, options.representatives,
                          options.cells, context);
   bars.set_min_dim(options.min_dim);
-  choice.engine->run(filtration, options.field, bars, context);
+  plan.choice.engine->run(filtration, options.field, bars, context);
   return bars.finish();
+}
+
+/// The barcode with its origin, computed by one of the engines of the filtration without an edge
+/// collapse.
+template <Filtration F>
+Barcode compute(const F& filtration, const Options& options, const RunContext& context) {
+  const Plan<F> plan = plan_for(filtration, options);
+  Barcode bars = bars_of(filtration, plan, options, context);
+  BarcodeInfo info = info_of_task(options, plan.max_dim, plan.choice.engine->id);
+  describe(filtration, info);
+  bars.set_info(std::move(info));
+  return bars;
 }
 
 }  // namespace ph::detail

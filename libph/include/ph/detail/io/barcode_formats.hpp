@@ -1,5 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
 #include "ph/io/write.hpp"
 
 namespace ph {
@@ -9,10 +14,12 @@ namespace ph {
 std::string filtration_members(const BarcodeInfo& info, std::string_view between = ", ");
 
 // One function per format; see BarcodeFormat.
-void write_barcode_csv(OutputFile& file, const Barcode& barcode, const BarcodeInfo& info);
+void write_barcode_csv(OutputFile& file, const Barcode& barcode, const BarcodeInfo& info,
+                       std::span<const double> p_values);
 void write_barcode_pers(OutputFile& file, const Barcode& barcode);
 void write_barcode_ripser(OutputFile& file, const Barcode& barcode, int max_dim);
-void write_barcode_json(OutputFile& file, const Barcode& barcode, const BarcodeInfo& info);
+void write_barcode_json(OutputFile& file, const Barcode& barcode, const BarcodeInfo& info,
+                        const BarData& data);
 void write_barcode_dipha(OutputFile& file, const Barcode& barcode,
                          const std::optional<double>& threshold);
 void write_barcode_npy(OutputFile& file, const Barcode& barcode);

@@ -147,11 +147,6 @@ class Input {
   const RunContext* context_ = nullptr;
 };
 
-/// An affine map from the indices (i, j, k) of a voxel to the coordinates of its centre in space:
-/// row r gives coordinate r as a[r][0] i + a[r][1] j + a[r][2] k + a[r][3]. The unit is the unit of
-/// the file.
-using Affine = std::array<std::array<double, 4>, 3>;
-
 /// The lines of a text input that carry data. Comments and blank lines are skipped; a byte order
 /// mark and CRLF are accepted. A comment runs from '#' to the end of the line, unless the '#' is
 /// inside a word or quotes, or belongs to a number written by an old Windows program (1.#INF) or to
