@@ -25,7 +25,8 @@ namespace ph::barcode {
 namespace {
 
 /// Refuses a format that has no room for the requested results. Only JSON and the report can
-/// contain representatives, and only JSON can contain loops. CSV has the places of sets of voxels.
+/// contain representatives, and only JSON can contain loops. CSV has the places of cycles and of
+/// sets of voxels.
 /// @throws Error (usage).
 void require_room(BarcodeFormat format, const Job& job) {
   if (!job.results.dry_run) require_significance(format, job);
@@ -36,13 +37,13 @@ void require_room(BarcodeFormat format, const Job& job) {
                                               "--output-format json or -o FILE.json",
                                               barcode_format_name(format)));
   if (!job.places.report.empty() || format == BarcodeFormat::json) return;
-  const bool is_of_voxels = kind == Representatives::voxels;
-  if (is_of_voxels && format == BarcodeFormat::csv) return;
-  throw Error(ErrorKind::usage,
-              fmt::format("--representatives: found output format {}, expected json{}; use "
-                          "--output-format json or -o FILE.json",
-                          barcode_format_name(format),
-                          is_of_voxels ? ", or csv for a table of places and sizes" : ""));
+  const bool has_places = kind != Representatives::cocycles;
+  if (has_places && format == BarcodeFormat::csv) return;
+  throw Error(
+      ErrorKind::usage,
+      fmt::format("--representatives: found output format {}, expected json{}; use "
+                  "--output-format json or -o FILE.json",
+                  barcode_format_name(format), has_places ? ", or csv for a table of places" : ""));
 }
 
 /// The input and the output files of one of several inputs. The folders and patterns of the job

@@ -109,9 +109,31 @@ void require_loops(const BuiltComplex& built, const Job& job) {
                                               built.name));
 }
 
+/// The points whose means are the places of bars. Empty if there are no points with coordinates, if
+/// cells are cubes of an image, or if coordinates are taken modulo the lengths of a space.
+std::optional<PointsView> points_with_places(const Loaded& loaded) {
+  const auto* alpha = std::get_if<Alpha>(&loaded.built.complex);
+  if (!loaded.data || std::holds_alternative<Cubical>(loaded.built.complex) ||
+      (alpha && alpha->is_periodic()))
+    return std::nullopt;
+  return points_of(loaded.data->read);
+}
+
+/// Must be called before the computation. @throws Error (usage) if CSV is the only output for
+/// cycles, but has no places of them.
+void require_places(const Loaded& loaded, const Job& job) {
+  if (!job.writes_centroids() || !job.places.report.empty() || points_with_places(loaded)) return;
+  throw Error(ErrorKind::usage,
+              fmt::format("--representatives: found output format csv for {}, whose cycles have no "
+                          "places, expected points with coordinates, or json; use --output-format "
+                          "json or -o FILE.json",
+                          loaded.description));
+}
+
 /// The results computed from a complex.
 struct Result {
   Barcode bars;
+  Points centroids;  ///< of the bars, in CSV
   std::vector<BarLoops> loops;
   std::vector<std::string> warnings;
   int code = app::kOk;
@@ -133,6 +155,7 @@ class Run {
     typing_.reset();
     require_loops(loaded.built, job_);
     if (job_.results.dry_run) return show_estimate(loaded);
+    require_places(loaded, job_);
 
     const RunPlan plan = plan_and_build(loaded);
     const std::vector<std::string> trees = draw_trees(loaded);
@@ -235,15 +258,19 @@ class Run {
   /// Frees the data if the complex alone is enough. This is the case if no output shows the data,
   /// and neither --check nor the computation uses them.
   void give_back_data(Loaded& loaded, const RunPlan& plan) const {
-    if (!job_.places.report.empty() || job_.results.check || plan.form == RipsForm::points) return;
+    if (!job_.places.report.empty() || job_.results.check || job_.writes_centroids() ||
+        plan.form == RipsForm::points)
+      return;
     if (auto* rips = std::get_if<Rips>(&loaded.built.complex)) rips->forget_input();
     loaded.data.reset();
     loaded.claim.reset();
   }
 
   Result compute(const Loaded& loaded, const RunPlan& plan) {
-    Result result{ph::run(loaded.built.complex, plan, context()), {}, {}};
+    Result result{ph::run(loaded.built.complex, plan, context()), {}, {}, {}};
     watch_.lap("persistence");
+    if (const auto points = points_with_places(loaded); points && job_.writes_centroids())
+      result.centroids = centroids(result.bars, *points, context());
     if (writes_loops(job_)) {
       const bool is_tight = job_.results.loops.value_or(LoopChoice::tight) == LoopChoice::tight;
       result.loops = loops(loaded.built.complex, result.bars, plan.options, is_tight, context());
@@ -314,7 +341,8 @@ class Run {
     session_.explain("memory " + format_size(static_cast<double>(session_.memory_taken())));
     note_absent_dims(result.bars, job_.results.look, session_);
     const app::BarHold results_are_written(session_);
-    outputs.write(result.bars, {.loops = result.loops, .p_values = p_values},
+    outputs.write(result.bars,
+                  {.loops = result.loops, .p_values = p_values, .centroids = result.centroids},
                   look_of(job_.results.look, job_.question.cubical.superlevel), trees, context());
     if (!job_.places.report.empty()) {
       const Shown shown{result.bars, *loaded.data, loaded.built,

@@ -29,6 +29,12 @@ Bars compute(const Recipe& recipe, const Task& task, const RunContext& context) 
   if (task.loops != LoopChoice::none)
     bars.loops = loops(built.complex, bars.barcode, planned.options,
                        task.loops == LoopChoice::tight, context);
+  const auto* alpha = std::get_if<Alpha>(&built.complex);
+  // In a periodic space, a mean of coordinates is no place.
+  if (const auto points = recipe.points();
+      points && task.options.representatives == Representatives::cycles &&
+      !(alpha && alpha->is_periodic()))
+    bars.centroids = centroids(bars.barcode, *points, context);
   if (!recipe.vertex_ids().empty()) {
     bars.barcode = with_input_ids(bars.barcode, recipe.vertex_ids());
     name_points(bars.loops, recipe.vertex_ids());

@@ -169,7 +169,8 @@ void save(const Bars& bars, const std::string& path, const std::optional<std::st
   const BarcodeInfo info = info_of(meta);
   run_task(options, false, [&](const SharedContext&) {
     OutputFile file(path);
-    write_barcode(file, bars.barcode, *format, {bars.loops, bars.p_values, &info});
+    write_barcode(file, bars.barcode, *format,
+                  {.loops = bars.loops, .p_values = bars.p_values, .info = &info});
     file.commit();
   });
 }

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import libph as ph
+from libph import _core
 
 pandas = pytest.importorskip("pandas")
 
@@ -61,6 +62,57 @@ def test_places_of_points():
         ph.rips(square, cells=False).to_pandas(places=True)
     with pytest.raises(ph.UsageError, match="voxels: found none, .*representatives='voxels'"):
         ph.cubical(VOLUME).to_pandas(places=True)
+
+
+def by_definition(bars, points):
+    """The mean of the means of the cells of each cycle; NaN for components."""
+    return np.array([points[bars.representative(i).cells].mean(axis=1).mean(axis=0) if dim > 0
+                     else np.full(points.shape[1], np.nan) for i, dim in enumerate(bars.dims)])
+
+
+def centroids(bars, axes):
+    return bars.to_pandas(places=True)[[f"centroid_{k}" for k in range(axes)]].to_numpy()
+
+
+@pytest.mark.parametrize("axes", [2, 3])
+def test_places_of_cycles(axes):
+    rng = np.random.default_rng(5)
+    points = rng.normal(size=(60, axes)) + 7
+    for bars in (ph.rips(points, representatives="cycles", max_dim=axes - 1),
+                 ph.rips(points, representatives="cycles", subsample=40),
+                 *([ph.alpha(points, representatives="cycles")] if _core.alpha_support() else [])):
+        assert {0, 1} <= set(bars.dims)
+        expected = by_definition(bars, points)
+        assert np.allclose(centroids(bars, axes), expected, rtol=1e-12, equal_nan=True)
+        kept = bars.filter(min_persistence=0.2)
+        assert 0 < len(kept) < len(bars)
+        assert np.allclose(centroids(kept, axes), by_definition(kept, points), equal_nan=True)
+        again = pickle.loads(pickle.dumps(bars))
+        assert np.array_equal(centroids(again, axes), centroids(bars, axes), equal_nan=True)
+    # A circle has one long loop, whose place is its centre.
+    angles = np.linspace(0, 2 * np.pi, 40, endpoint=False)
+    circle = np.column_stack([3 + np.cos(angles), 5 + np.sin(angles)])
+    bars = ph.rips(circle, representatives="cycles")
+    assert np.allclose(centroids(bars, 2)[bars.longest(1)], [3, 5])
+
+
+def test_places_of_points_with_nan():
+    points = np.random.default_rng(6).normal(size=(30, 2))
+    points[[0, 7]] = np.nan
+    bars = ph.rips(points, representatives="cycles", nan="drop")
+    assert np.allclose(centroids(bars, 2), by_definition(bars, points), equal_nan=True)
+    assert 1 in bars.dims
+
+
+def test_bars_without_centroids():
+    points = np.random.default_rng(6).random((20, 2))
+    distances = np.linalg.norm(points[:, None] - points, axis=2)
+    without = [ph.rips(points), ph.rips(points, representatives="cocycles"),
+               ph.rips(distances, metric="precomputed", representatives="cycles")]
+    if _core.alpha_support():
+        without.append(ph.alpha(points, period=1, representatives="cycles"))
+    for bars in without:
+        assert list(bars.to_pandas(places=True)) == ["dim", "birth", "death", "birth_vertices", "death_vertices"]
 
 
 def test_p_values_in_tables(tmp_path):

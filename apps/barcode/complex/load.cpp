@@ -148,7 +148,8 @@ Loaded load(const Job& job, std::optional<Input>& input, app::Session& session, 
   if (const std::string_view why = why_no_nan(read); is_given(job, "nan") && !why.empty())
     session.note(fmt::format("{}: --nan does nothing: {}", name, why));
   const bool is_shown =
-      (!job.places.report.empty() || !job.places.surfaces.empty()) && !job.results.dry_run;
+      (!job.places.report.empty() || !job.places.surfaces.empty() || job.writes_centroids()) &&
+      !job.results.dry_run;
   BuiltComplex built =
       is_shown ? build_complex(read, name, dropped, job, session.context())
                : build_complex(std::move(data.read), name, dropped, job, session.context());

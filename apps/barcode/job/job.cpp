@@ -12,6 +12,11 @@ bool Job::draws_tree() const {
                              [](const app::Plot& plot) { return plot.kind == "tree"; });
 }
 
+bool Job::writes_centroids() const {
+  return places.format == BarcodeFormat::csv &&
+         question.options.representatives == Representatives::cycles;
+}
+
 bool Job::is_folder_of_inputs(const std::string& path) const {
   return !reading.options.stack && app::is_folder(path);
 }

@@ -135,6 +135,8 @@ struct Job {
 
   /// True if the command line requests a plot of the merge tree.
   bool draws_tree() const;
+  /// True if CSV gets the places of the cycles of points.
+  bool writes_centroids() const;
   /// True if this is a folder whose files are inputs. With --stack, a folder is one input.
   bool is_folder_of_inputs(const std::string& path) const;
   /// True if a single input is computed in parts. With --part, the run computes one part. On ranks,

@@ -12,6 +12,7 @@ struct Chosen {
   Barcode bars;
   std::vector<BarLoops> loops;
   std::vector<double> p_values;
+  std::vector<double> centroids;  ///< row after row
 
   Chosen(const Barcode& all, const BarData& data, std::span<const int> dims)
       : bars(all.cell_kind()) {
@@ -20,6 +21,8 @@ struct Chosen {
       add(all, i);
       if (!data.loops.empty()) loops.push_back(data.loops[i]);
       if (!data.p_values.empty()) p_values.push_back(data.p_values[i]);
+      for (Index axis = 0; axis < data.centroids.cols(); ++axis)
+        centroids.push_back(data.centroids(static_cast<Index>(i), axis));
     }
     BarcodeInfo info = all.info();
     info.dims.assign(dims.begin(), dims.end());
@@ -84,7 +87,10 @@ void Outputs::write(const Barcode& bars, const BarData& data, const PlotOptions&
     } else {
       const Chosen chosen(bars, data, look.dims);
       write_barcode(barcode_->file(), chosen.bars, places_.format,
-                    {.loops = chosen.loops, .p_values = chosen.p_values});
+                    {.loops = chosen.loops,
+                     .p_values = chosen.p_values,
+                     .centroids = PointsView(chosen.centroids.data(), std::ssize(chosen.bars),
+                                             data.centroids.cols())});
     }
     barcode_->commit();
   }

@@ -95,6 +95,30 @@ void name_points(std::vector<BarLoops>& loops, const std::vector<Index>& ids) {
       for (Index& v : loop.numbers) v = id_of(v, ids);
 }
 
+Points centroids(const Barcode& barcode, PointsView points, const RunContext& context) {
+  require_vertices(barcode.cell_kind());
+  const auto bars = static_cast<Index>(barcode.size()), axes = points.cols();
+  context.memory.require(static_cast<std::size_t>(bars * axes) * sizeof(double));
+  Points places(bars, axes);
+  for (Index i = 0; i < bars; ++i) {
+    const auto bar = static_cast<std::size_t>(i);
+    const InputChain chain = barcode.representative(bar);
+    double* const place = places.data() + i * axes;
+    double numbers = 0;
+    for (std::size_t k = 0; k < chain.size() && barcode[bar].dim > 0; ++k)
+      for (const Index v : chain.cell(k).numbers) {
+        if (v < 0 || v >= points.rows())
+          throw Error(ErrorKind::usage, fmt::format("centroids: found vertex {}, expected 0 to {}",
+                                                    v, points.rows() - 1));
+        for (Index axis = 0; axis < axes; ++axis) place[axis] += points(v, axis);
+        ++numbers;
+      }
+    // All cells of a chain have the same number of vertices. 0 / 0 is NaN.
+    for (Index axis = 0; axis < axes; ++axis) place[axis] /= numbers;
+  }
+  return places;
+}
+
 MergeTree with_input_ids(MergeTree tree, std::span<const Index> ids, std::size_t size) {
   std::vector<double> births(size, kInfinity);
   for (std::size_t v = 0; v < ids.size(); ++v)

@@ -52,7 +52,10 @@ class Output:
         ----------
         places : bool
             Add columns that say where the hole of each bar is. For bars of points or simplices:
-            `birth_vertices` and `death_vertices`, the vertices of its cells. For images, which need
+            `birth_vertices` and `death_vertices`, the vertices of its cells. For points with
+            coordinates and ``representatives="cycles"``, also the mean place of the cells of the
+            bar's cycle (`centroid_0`, … by coordinate; NaN for components), unless the space is
+            periodic or the bars were read from a file. For images, which need
             ``representatives="voxels"``: the voxels whose values are the birth and the death
             (`birth_0`, `birth_1`, … by axis, and `death_0`, …), the mean place of the bar's voxels
             or of its cycle (`centroid_0`, …) and the number of its voxels (`voxels`, 0 for a

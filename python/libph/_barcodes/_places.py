@@ -27,8 +27,10 @@ def columns_of_places(bars: Barcode) -> dict[str, Any]:
         raise bars._found_none("voxels", "of an image computed with representatives='voxels'")
     places = range(len(bars))
     deaths = [bars.death_cell(i) for i in places]
+    centroids = np.asarray(bars._bars.centroids)
     return {"birth_vertices": [tuple(bars.birth_cell(i).tolist()) for i in places],
-            "death_vertices": [None if cell is None else tuple(cell.tolist()) for cell in deaths]}
+            "death_vertices": [None if cell is None else tuple(cell.tolist()) for cell in deaths],
+            **{f"centroid_{axis}": column for axis, column in enumerate(centroids.T)}}
 
 
 def _columns_of_voxels(bars: Barcode) -> dict[str, Any]:

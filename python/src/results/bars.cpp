@@ -182,6 +182,8 @@ void bind_bars(py::module_& m) {
       .def_readonly("field", &Bars::field)
       .def_property_readonly("p_values",
                              [](const Bars& bars) { return Block::of(std::vector(bars.p_values)); })
+      .def_property_readonly("centroids",
+                             [](const Bars& bars) { return Block::of(Points(bars.centroids)); })
       .def_property_readonly("cell_kind", [](const Bars& bars) { return bars.barcode.cell_kind(); })
       .def_property_readonly("has_cells",
                              [](const Bars& bars) {

@@ -5,6 +5,7 @@
 
 #include "ph/detail/core/loop.hpp"
 #include "ph/persistence.hpp"
+#include "ph/points.hpp"
 
 namespace ph::python {
 
@@ -16,6 +17,8 @@ struct Bars {
   std::int64_t field = 2;
   /// The p-value of each bar, NaN if a bar has none; empty unless they come from a file.
   std::vector<double> p_values = {};
+  /// The place of each bar, one row per bar; empty unless bars of points have cycles.
+  Points centroids = {};
 
   /// The bars of a dimension, which are `count` bars from index `first` on.
   struct Range {

@@ -169,6 +169,9 @@ Bars selected(const Bars& bars, const std::vector<std::int64_t>& places) {
   const std::span<const std::uint32_t> voxels = all_voxels(all);
   Bars chosen{Barcode(all.cell_kind()), {}, bars.field};
   chosen.barcode.set_info(all.info());
+  const Index axes = bars.centroids.cols();
+  chosen.centroids = Points(axes > 0 ? std::ssize(places) : 0, axes);
+  Index row = 0;
   chosen.barcode.store_voxels(voxels);
   for (const std::int64_t place : places) {
     if (place < 0 || static_cast<std::size_t>(place) >= all.size())
@@ -177,6 +180,7 @@ Bars selected(const Bars& bars, const std::vector<std::int64_t>& places) {
     append(chosen.barcode, all[i], parts_of(all, i, voxels), all.representatives());
     if (!bars.loops.empty()) chosen.loops.push_back(bars.loops[i]);
     if (!bars.p_values.empty()) chosen.p_values.push_back(bars.p_values[i]);
+    std::copy_n(bars.centroids.data() + place * axes, axes, chosen.centroids.data() + row++ * axes);
   }
   return chosen;
 }
@@ -218,6 +222,9 @@ py::dict state_of(const Bars& bars) {
   state["voxels"] = Block::copy_of(voxels);
   LoopLists(bars.loops).put(state);
   state["p_values"] = Block::of(std::vector(bars.p_values));
+  const Points& centroids = bars.centroids;
+  state["centroids"] =
+      Block::copy_of(std::span(centroids.data(), static_cast<std::size_t>(centroids.size())));
   return state;
 }
 
@@ -254,6 +261,12 @@ Bars bars_of_state(const py::dict& state) {
   }
   bars.loops = LoopLists(state).loops();
   bars.p_values = vector_of<double>(state["p_values"]);
+  const auto centroids = vector_of<double>(state["centroids"]);
+  const std::size_t axes = dims.empty() ? 0 : centroids.size() / dims.size();
+  if (centroids.size() != axes * dims.size()) fail();
+  if (axes > 0)
+    bars.centroids =
+        Points(PointsView(centroids.data(), std::ssize(dims), static_cast<Index>(axes)));
   for (const std::size_t known : {bars.loops.size(), bars.p_values.size()})
     if (known != 0 && known != bars.barcode.size()) fail();
   return bars;

@@ -230,7 +230,7 @@ class Representatives(ProgramTest):
         self.assertNotIn("representative", result["bars"][0])
 
     def test_batch(self):
-        self.expect(64, "square.txt", "-o", "out/", "--representatives", "cycles")
+        self.expect(64, "square.txt", "-o", "out/", "--representatives", "cocycles")
         self.expect(0, "square.txt", "-o", "out/", "--representatives", "cycles",
                     "--output-format", "json")
         self.assertIn("representative", self.read("out/square.json"))

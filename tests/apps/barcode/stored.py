@@ -277,6 +277,31 @@ class Stored(ProgramTest):
         self.assertIn("expected json, or csv for a table of places", self.expect(
             64, "v.npy", "--representatives", "voxels", "--output-format", "npy").stderr)
 
+    def test_places_of_cycles(self):
+        """A table of cycles of points says where they are, as the mean of their cells."""
+        self.write("far.txt", "10 20\n11 20\n11 21\n10 21\n")
+        cycles = ("--representatives", "cycles", "--min-dim", "1")
+        rows = self.expect(0, "far.txt", *cycles).stdout
+        self.assertEqual(rows, "dim,birth,death,centroid_0,centroid_1\n1,1,1.4142135623730951,10.5,20.5\n")
+        self.write("rows.csv", rows)
+        self.assertEqual(self.expect(0, "rows.csv").stdout, "dim,birth,death\n1,1,1.4142135623730951\n")
+        self.write("nan.txt", "nan 0\n10 20\n11 20\n11 21\n10 21\n")
+        self.assertEqual(self.expect(0, "nan.txt", *cycles, "--nan", "drop").stdout, rows)
+        both = self.expect(0, "far.txt", "--representatives", "cycles").stdout.splitlines()
+        self.assertEqual(both[1:5], ["0,0,1,,", "0,0,1,,", "0,0,1,,", "0,0,inf,,"])
+        chosen = self.expect(0, "far.txt", "--representatives", "cycles", "--dims", "1").stdout
+        self.assertEqual(chosen, rows)
+        self.write("long.txt", "".join(" ".join(["0"] * 11 + [x]) + "\n" for x in "12"))
+        rows = self.expect(0, "long.txt", "--representatives", "cycles", "--max-dim", "0").stdout
+        self.assertTrue(rows.splitlines()[0].endswith("centroid_10,centroid_11"))
+        self.write("rows.csv", rows)
+        self.assertEqual(len(self.expect(0, "rows.csv").stdout.splitlines()), 3)
+        for options in (("--representatives", "cocycles"), ("--representatives", "cycles", "-o", "x.npy")):
+            self.expect(64, "far.txt", *options)
+        self.write("v.npy", files.array((3, 4), [4, 1, 5, 9, 2, 7, 3, 9, 5, 0, 5, 9]))
+        self.assertIn("whose cycles have no places", self.expect(
+            64, "v.npy", "--representatives", "cycles").stderr)
+
     def test_dimensions(self):
         """--dims chooses the bars that are written, in every format, with all their data."""
         def of_dim(text, dim):

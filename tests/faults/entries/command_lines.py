@@ -47,11 +47,11 @@ BARCODE = [
     (49, ["--nan", "ignore"], "--nan"),
     (49, ["--min-persistence", "nan"], "--min-persistence"),
     (49, ["--representatives", "cycle"], "did you mean 'cycles'"),
-    (49, ["--representatives", "cycles"], "--output-format json"),
+    (49, ["--representatives", "cocycles"], "--output-format json"),
     (49, ["--representatives", "voxels", "--output-format", "json"], "sets of voxels need an image"),
     (49, ["--representatives", "cocycles", "-o", "x.csv"], "found output format csv"),
     *((49, ["--representatives", "cycles", "--output-format", name], "found output format " + name)
-      for name in ("csv", "ripser", "pers", "dipha", "npy", "none")),
+      for name in ("ripser", "pers", "dipha", "npy", "none")),
     *((49, ["--representatives", "cycles", "--output-format", "json", "--max-dim", "0", "--engine",
             name], "--engine: found " + name) for name in ("standard",)),
     (49, ["--min-dim", "2"], "--min-dim: found 2, expected at most 1"),
@@ -119,6 +119,8 @@ BARCODE_FILES = [
     (49, "lower.txt", b"1\n3 2\n", ["--format", "lower-distance", "--metric", "manhattan"],
      "--metric"),
     (49, "edge.phat", b"0\n0\n1 0 1\n", ["--collapse", "on"], "--collapse"),
+    (49, "lower.txt", b"1\n3 2\n", ["--format", "lower-distance", "--representatives", "cycles"],
+     "expected points with coordinates, or json"),
     *((49, "image.pgm", b"P2\n2 1\n9\n1 2\n", options, "points and distance")
       for options in (["--collapse", "on"], ["--subsample", "2"], ["--approximate", "1"],
                       ["--dtm", "2"], ["--core", "1"], ["--vertex-weights", "image.pgm"])),

@@ -36,6 +36,9 @@ struct BarData {
   /// The p-value of each bar, written in CSV and JSON; NaN if a bar has none. Empty if no bar has
   /// one.
   std::span<const double> p_values = {};
+  /// The place of each bar, one row per bar, written in CSV; NaN if a bar has none. Empty if no bar
+  /// has one.
+  PointsView centroids = {};
   const BarcodeInfo* info = nullptr;  ///< an origin to state in place of Barcode::info; may be null
 };
 
@@ -58,8 +61,8 @@ std::optional<BarcodeFormat> barcode_format_named(std::string_view name);
 std::optional<BarcodeFormat> barcode_format_of_path(std::string_view path);
 
 /// Writes a barcode; the caller commits the file. JSON states the origin, Barcode::info.
-/// @throws Error (io) as OutputFile; Error (usage) on loops or p-values that do not belong to these
-///         bars.
+/// @throws Error (io) as OutputFile; Error (usage) on loops, p-values or centroids that do not
+///         belong to these bars.
 void write_barcode(OutputFile& file, const Barcode& barcode, BarcodeFormat format,
                    const BarData& data = {});
 

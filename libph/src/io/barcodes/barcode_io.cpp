@@ -60,9 +60,13 @@ void write_barcode(OutputFile& file, const Barcode& barcode, BarcodeFormat forma
     throw Error(ErrorKind::usage,
                 fmt::format("p_values: found {}, expected one for each of {} bars, or none",
                             data.p_values.size(), barcode.size()));
+  if (data.centroids.rows() != 0 && data.centroids.rows() != std::ssize(barcode))
+    throw Error(ErrorKind::usage,
+                fmt::format("centroids: found {}, expected one for each of {} bars, or none",
+                            data.centroids.rows(), barcode.size()));
   switch (format) {
     case BarcodeFormat::csv:
-      return write_barcode_csv(file, barcode, info, data.p_values);
+      return write_barcode_csv(file, barcode, info, data);
     case BarcodeFormat::json:
       return write_barcode_json(file, barcode, info, data);
     case BarcodeFormat::ripser:

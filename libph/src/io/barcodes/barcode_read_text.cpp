@@ -51,11 +51,11 @@ void add_at(const TextLines& lines, Barcode& barcode, const Bar& bar) {
 bool is_place(std::string_view name) {
   if (name == "voxels" || name == "volume") return true;
   const std::size_t bar = name.find('_');
-  if (bar == name.npos || name.size() != bar + 2) return false;
-  const std::string_view end = name.substr(0, bar);
-  const std::string_view axes = "01234567xyz";
+  if (bar == name.npos || name.size() == bar + 1) return false;
+  const std::string_view end = name.substr(0, bar), axis = name.substr(bar + 1);
   return (end == "birth" || end == "death" || end == "centroid") &&
-         axes.find(name.back()) != axes.npos;
+         (axis == "x" || axis == "y" || axis == "z" ||
+          axis.find_first_not_of("0123456789") == axis.npos);
 }
 
 const Column* column_of(const std::string& name) {

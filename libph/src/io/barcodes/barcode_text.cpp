@@ -29,6 +29,14 @@ namespace {
 
 using Place = std::vector<double>;
 
+/// An unknown place leaves its cells empty.
+std::string cells(const Place& place, std::size_t count) {
+  std::string text;
+  for (std::size_t k = 0; k < count; ++k)
+    text += place.empty() ? "," : fmt::format(",{}", shortest(place[k]));
+  return text;
+}
+
 /// The columns that say where the holes of an image are. The same columns come first in a table
 /// that Python makes (python/libph/_barcodes/_places.py).
 class PlaceColumns {
@@ -55,19 +63,14 @@ class PlaceColumns {
     if (!info_.affine) return text;
     for (const Place& place : places) text += cells(in_space(place), 3);
     if (axes() == 3)
-      text += "," + shortest(static_cast<double>(voxels.size()) * std::abs(determinant()));
+      text += fmt::format(",{}",
+                          shortest(static_cast<double>(voxels.size()) * std::abs(determinant())));
     return text;
   }
 
  private:
   std::size_t axes() const { return info_.shape.size(); }
   static Place place_of(std::span<const Index> voxel) { return {voxel.begin(), voxel.end()}; }
-  /// An unknown place leaves its cells empty.
-  static std::string cells(const Place& place, std::size_t count) {
-    std::string text;
-    for (std::size_t k = 0; k < count; ++k) text += place.empty() ? "," : "," + shortest(place[k]);
-    return text;
-  }
   Place middle_of(std::span<const std::uint32_t> voxels) const {
     Place sum(axes());
     for (std::uint64_t voxel : voxels)
@@ -111,22 +114,37 @@ class PlaceColumns {
   const BarcodeInfo& info_;
 };
 
+std::string centroid_names(Index axes) {
+  std::string text;
+  for (Index axis = 0; axis < axes; ++axis) text += fmt::format(",centroid_{}", axis);
+  return text;
+}
+
+std::string centroid_cells(PointsView centroids, std::size_t i) {
+  Place place;
+  for (Index axis = 0; axis < centroids.cols(); ++axis)
+    place.push_back(centroids(static_cast<Index>(i), axis));
+  if (std::ranges::any_of(place, [](double x) { return std::isnan(x); })) place.clear();
+  return cells(place, static_cast<std::size_t>(centroids.cols()));
+}
+
 }  // namespace
 
 void write_barcode_csv(OutputFile& file, const Barcode& barcode, const BarcodeInfo& info,
-                       std::span<const double> p_values) {
+                       const BarData& data) {
+  const std::span<const double> p_values = data.p_values;
   const bool has_p = !p_values.empty();
   std::optional<PlaceColumns> places;
   if (barcode.representatives() == Representatives::voxels && !info.shape.empty())
     places.emplace(barcode, info);
-  file.write(
-      fmt::format("dim,birth,death{}{}\n", has_p ? ",p" : "", places ? places->header() : ""));
+  const std::string header = places ? places->header() : centroid_names(data.centroids.cols());
+  file.write(fmt::format("dim,birth,death{}{}\n", has_p ? ",p" : "", header));
   for (std::size_t i = 0; i < barcode.size(); ++i) {
     const Bar& bar = barcode[i];
     file.write(fmt::format("{},{},{}", bar.dim, shortest(bar.birth), shortest(bar.death)));
     if (has_p)
       file.write(std::isnan(p_values[i]) ? "," : fmt::format(",{}", shortest(p_values[i])));
-    if (places) file.write(places->row(i));
+    file.write(places ? places->row(i) : centroid_cells(data.centroids, i));
     file.write("\n");
   }
 }

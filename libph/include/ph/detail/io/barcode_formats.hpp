@@ -15,7 +15,7 @@ std::string filtration_members(const BarcodeInfo& info, std::string_view between
 
 // One function per format; see BarcodeFormat.
 void write_barcode_csv(OutputFile& file, const Barcode& barcode, const BarcodeInfo& info,
-                       std::span<const double> p_values);
+                       const BarData& data);
 void write_barcode_pers(OutputFile& file, const Barcode& barcode);
 void write_barcode_ripser(OutputFile& file, const Barcode& barcode, int max_dim);
 void write_barcode_json(OutputFile& file, const Barcode& barcode, const BarcodeInfo& info,
