@@ -62,6 +62,14 @@ class MergeTree:
                                  np.asarray(self._tree.younger_sizes)])
         return (_restored, (self.births, self.values, ends, sizes, self.shape))
 
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, MergeTree):
+            return NotImplemented
+        return self.shape == other.shape and self._tree.equals(other._tree)
+
+    def __hash__(self) -> int:
+        return hash((self.shape, self.edges.tobytes()))
+
     def __len__(self) -> int:
         return len(self.births)
 

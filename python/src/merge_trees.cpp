@@ -98,6 +98,8 @@ void bind_merge_trees(py::module_& m) {
           "younger_sizes",
           [](const MergeTree& t) { return column<Index>(t, &Merge::younger_size); })
       .def_property_readonly("linkage", &linkage_of)
+      .def("equals", [](const MergeTree& a, const MergeTree& b) { return a == b; },
+           py::arg("other"))
       .def(
           "components",
           [](const MergeTree& t, double value) { return Block::of(t.components(value)); },

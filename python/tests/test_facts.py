@@ -251,7 +251,7 @@ def test_merge_trees_can_be_pickled():
     image = np.random.default_rng(3).normal(size=(4, 5, 6))
     for tree in (ph.merge_tree(image), ph.merge_tree(image[0], complex="cubical"), ph.merge_tree(np.empty((0, 2)))):
         again = pickle.loads(pickle.dumps(tree))
-        assert again.shape == tree.shape
+        assert again == tree and hash(again) == hash(tree) and again.shape == tree.shape
         for name in ("births", "values", "edges", "elder", "younger", "linkage"):
             assert_array_equal(getattr(again, name), getattr(tree, name))
         assert_array_equal(again.components(0.1), tree.components(0.1))
@@ -259,6 +259,20 @@ def test_merge_trees_can_be_pickled():
     restored, (births, values, ends, sizes, shape) = tree.__reduce__()
     with pytest.raises(ph.DataError, match="merge tree: found arrays of different trees"):
         restored(births, np.zeros(1), np.zeros((1, 4), dtype=np.int64), sizes, shape)
+
+
+def test_equal_merge_trees():
+    image = np.array([[0.0, 3, 1], [2, 5, 4]])
+    tree = ph.merge_tree(image, complex="cubical")
+    assert tree == ph.merge_tree(image.copy(), complex="cubical")
+    assert {tree: 1}[ph.merge_tree(image, complex="cubical")] == 1
+    # Shapes, births, values and ends of merges make a difference.
+    assert tree != ph.merge_tree(image.reshape(3, 2), complex="cubical")
+    higher = np.where(image == 5, 6, image)
+    assert tree != ph.merge_tree(higher, complex="cubical")
+    assert ph.merge_tree([[0], [1], [3]]) != ph.merge_tree([[0], [1], [4]])
+    assert ph.merge_tree([[0], [1], [3]]) != ph.merge_tree([[1], [0], [3]])
+    assert tree != 1 and (tree == "tree") is False
 
 
 def test_merge_tree_of_equal_points():

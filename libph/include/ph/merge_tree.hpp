@@ -66,6 +66,8 @@ struct MergeTree {
   std::vector<Class> classes() const;
   /// The same classes as branches, in the order of the vertices that gave birth to them.
   std::vector<Branch> branches() const;
+  /// True if all births and all merges are equal, in the same order.
+  friend bool operator==(const MergeTree&, const MergeTree&) = default;
 };
 
 /// A row of a linkage matrix: two clusters become one. Clusters 0 … n-1 are the vertices; row i

@@ -284,5 +284,19 @@ TEST(MergeTrees, NeedEdgesThatJoinTwoVertices) {
   expect_error(ErrorKind::usage, "two vertices", [&] { merge_tree(odd); });
 }
 
+TEST(MergeTree, EqualTreesHaveEqualBirthsAndMerges) {
+  const auto tree_of = [](double x, double y, double z) {
+    const std::vector<double> line{x, y, z};
+    return merge_tree(Rips(PointsView(line.data(), 3, 1)));
+  };
+  const MergeTree tree = tree_of(0, 1, 3);
+  EXPECT_TRUE(tree == tree_of(0, 1, 3));
+  EXPECT_FALSE(tree == tree_of(0, 1, 4));  // another value
+  EXPECT_FALSE(tree == tree_of(1, 0, 3));  // another edge
+  MergeTree late = tree;
+  late.births[2] = 0.5;
+  EXPECT_FALSE(tree == late);
+}
+
 }  // namespace
 }  // namespace ph::test
