@@ -50,9 +50,10 @@ RipsGraph forest_of_points(PointsView points, const RipsOptions& options,
                            const VertexWeights& weights, const RunContext& context) {
   if (options.device == Device::gpu)  // mutant: device-gpu
     return RipsGraph::forest_on_gpu(points, options.threshold, context);
-  const bool are_balls_whole =
-      weights.births().empty() || weights.exponent() == WeightExponent::infinity;
-  if (are_balls_whole && has_fast_spanning_forest(points, options.distance))
+  // Points without coordinates are copies, which a tree can hold only if they are merged.
+  const bool has_fast_births = weights.exponent() == WeightExponent::infinity && points.cols() > 0;
+  if ((weights.births().empty() || has_fast_births) &&
+      has_fast_spanning_forest(points, options.distance))
     return RipsGraph::forest_of_points(points, options.distance, options.minkowski_p,
                                        weights.births(), options.threshold, context);
   return RipsGraph::forest_of_metric(PointMetric(points, options.distance, options.minkowski_p),

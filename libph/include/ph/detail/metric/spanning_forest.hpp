@@ -75,7 +75,8 @@ bool has_fast_spanning_forest(PointsView points, PointDistance distance);
 /// the nodes of the tree also store their least birth. If the births are core distances, this is
 /// the forest of HDBSCAN* (Campello, Moulavi, Sander 2013; McInnes, Healy 2017).
 /// @param points one point per row. @param p exponent of PointDistance::minkowski.
-/// @param births one per point, finite, >= 0; if empty, all births are 0.
+/// @param births one per point, finite, >= 0; if empty, all births are 0. With births, points need
+/// at least one coordinate.
 /// @param largest as for PointMetric, if the points are a part of a cloud. Precondition:
 /// has_fast_spanning_forest(points, distance).
 /// @throws Error (bad_data) as PointMetric.
