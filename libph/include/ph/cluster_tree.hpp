@@ -143,6 +143,7 @@ class ClusterTree {
 
  private:
   struct Data;
+  class Growth;
   class Condenser;
   class Recutter;
   /// @param edges ascending.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -55,6 +56,38 @@ struct ClusterTree::Data {
   // cluster its first place in that order, and the end.
   std::vector<std::uint32_t> order = {};
   std::vector<std::uint32_t> first = {};
+};
+
+/// The clusters of a tree while the value grows. Their masses are sums, whose order depends only on
+/// the values.
+class ClusterTree::Growth {
+ public:
+  explicit Growth(Data& data) : life_(data.life), clusters_(data.clusters) {}
+
+  std::uint32_t add(double value) {
+    clusters_.push_back({.bottom = value, .least = value});
+    last_.push_back(value);
+    return static_cast<std::uint32_t>(clusters_.size() - 1);
+  }
+  /// Counts the time that the points of a cluster have spent in it since the last value at which
+  /// its size changed.
+  void live(std::uint32_t cluster, double value) {
+    Cluster& c = clusters_[cluster];
+    c.mass += (life_(last_[cluster]) - life_(value)) * static_cast<double>(c.size);
+    last_[cluster] = value;
+  }
+  /// The child joins other clusters. Precondition: it has lived until this value.
+  void join(std::uint32_t child, std::uint32_t parent, double value) {
+    Cluster& c = clusters_[child];
+    c.top = value;
+    c.parent = parent;
+    clusters_[parent].least = std::min(clusters_[parent].least, c.least);
+  }
+
+ private:
+  const detail::Lifetime life_;
+  std::vector<Cluster>& clusters_;
+  std::vector<double> last_;  // by cluster: the last value at which its size changed
 };
 
 }  // namespace ph

@@ -56,7 +56,6 @@ class ClusterTree::Condenser {
         size_(next_.size(), 1, &context.memory),
         cluster_(next_.size(), kNone, &context.memory),
         order_(&context.memory),
-        last_(&context.memory),
         ticker_(context, "clusters", next_.size()) {
     context.memory.require(next_.size() * (2 * sizeof(std::uint32_t) + sizeof(double)));
     std::iota(next_.begin(), next_.end(), 0U);
@@ -141,42 +140,24 @@ class ClusterTree::Condenser {
       cluster = part.cluster;
     }
     if (real == 1)
-      live(cluster, value);
+      growth_.live(cluster, value);
     else if (real > 1 || size_[whole] >= min_size_)  // mutant: cluster-real
-      cluster = add_cluster(value);
+      cluster = growth_.add(value);
     for (const Part& part : parts) {
       if (cluster == kNone)
         splice(part.root, parts.front().root);
       else if (part.cluster == kNone)
         assign(part.root, cluster, value);
-      else if (part.cluster != cluster)
-        end_cluster(part.cluster, cluster, value);
+      else if (part.cluster != cluster) {
+        growth_.live(part.cluster, value);
+        growth_.join(part.cluster, cluster, value);
+      }
     }
     cluster_[whole] = cluster;
     if (cluster != kNone) data_.clusters[cluster].size = size_[whole];
   }
   void splice(std::uint32_t a, std::uint32_t b) {
     if (a != b) std::swap(next_[a], next_[b]);
-  }
-  std::uint32_t add_cluster(double value) {
-    data_.clusters.push_back({.bottom = value, .least = value});
-    last_.push_back(value);
-    return static_cast<std::uint32_t>(data_.clusters.size() - 1);
-  }
-  /// Counts the time that the points of a cluster have spent in it since the last value at which
-  /// its size changed. The order of these sums depends only on the values.
-  void live(std::uint32_t cluster, double value) {
-    Cluster& c = data_.clusters[cluster];
-    c.mass += (data_.life(last_[cluster]) - data_.life(value)) * static_cast<double>(c.size);
-    last_[cluster] = value;
-  }
-  void end_cluster(std::uint32_t child, std::uint32_t parent, double value) {
-    live(child, value);
-    Cluster& c = data_.clusters[child];
-    c.top = value;
-    c.parent = parent;
-    Cluster& p = data_.clusters[parent];
-    p.least = std::min(p.least, c.least);
   }
   /// All points of a small component leave a cluster.
   void assign(std::uint32_t root, std::uint32_t cluster, double value) {
@@ -194,11 +175,11 @@ class ClusterTree::Condenser {
     if (n == 0) return;
     if (const std::uint32_t root = sets_.find(0); cluster_[root] == kNone) {
       // There are fewer points than a cluster has, so the root is not a real component.
-      const std::uint32_t cluster = add_cluster(last_value_);
+      const std::uint32_t cluster = growth_.add(last_value_);
       data_.clusters[cluster].size = static_cast<Index>(n);
       assign(root, cluster, last_value_);
     }
-    live(static_cast<std::uint32_t>(data_.clusters.size() - 1), kInfinity);
+    growth_.live(static_cast<std::uint32_t>(data_.clusters.size() - 1), kInfinity);
     // The points were assigned in ascending order of their values, which the sort keeps.
     data_.first.assign(data_.clusters.size() + 1, 0);
     for (const std::uint32_t c : data_.cluster_of) ++data_.first[c + 1];
@@ -209,13 +190,13 @@ class ClusterTree::Condenser {
   }
 
   Data& data_;
+  Growth growth_{data_};
   const std::uint32_t min_size_;
   DisjointSets sets_;
   std::pmr::vector<std::uint32_t> next_;     // circular lists of the points of small components
   std::pmr::vector<std::uint32_t> size_;     // by root
   std::pmr::vector<std::uint32_t> cluster_;  // by root: kNone for a small component
   std::pmr::vector<std::uint32_t> order_;    // the points as they were assigned
-  std::pmr::vector<double> last_;            // by cluster: the last value at which its size changed
   std::vector<Part> parts_;
   double last_value_ = kInfinity;  // the value of the last join
   Ticker ticker_;

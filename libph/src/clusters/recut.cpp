@@ -28,7 +28,7 @@ class ClusterTree::Recutter {
     if (clusters == 0) return;
     Cluster& root = made_.clusters.back();
     root.size = finest_.clusters.back().size;
-    live(static_cast<std::uint32_t>(made_.clusters.size() - 1), kInfinity);
+    growth_.live(static_cast<std::uint32_t>(made_.clusters.size() - 1), kInfinity);
     assign_points();
   }
 
@@ -54,23 +54,18 @@ class ClusterTree::Recutter {
     if (part.real_children == 0) {
       if (cluster.size < made_.min_size && !is_root(c)) return;  // mutant: cluster-recut
       part.start = start_of_leaf(c);
-      part.made = add_cluster(part.start);
+      part.made = growth_.add(part.start);
       return;
     }
-    if (part.real_children > 1) part.made = add_cluster(part.start);
+    if (part.real_children > 1) part.made = growth_.add(part.start);
     for (std::uint32_t child = part.last_child; child != kNone; child = parts_[child].sibling) {
       const std::uint32_t of_child = parts_[child].made;
       if (of_child == kNone) continue;
-      live(of_child, part.start);
-      if (part.real_children == 1) {
+      growth_.live(of_child, part.start);
+      if (part.real_children == 1)
         part.made = of_child;
-        continue;
-      }
-      Cluster& made = made_.clusters[of_child];
-      made.parent = part.made;
-      made.top = part.start;
-      Cluster& parent = made_.clusters[part.made];
-      parent.least = std::min(parent.least, made.least);
+      else
+        growth_.join(of_child, part.made, part.start);
     }
   }
   /// The value at which a cluster without real children has `min_size` points. A root may never
@@ -82,16 +77,6 @@ class ClusterTree::Recutter {
     const Index place = Index{finest_.first[c]} + std::min(wanted, own) - 1;
     return std::max(finest_.clusters[c].bottom, value_of(static_cast<std::uint32_t>(place)));
   }
-  std::uint32_t add_cluster(double value) {
-    made_.clusters.push_back({.bottom = value, .least = value});
-    last_.push_back(value);
-    return static_cast<std::uint32_t>(made_.clusters.size() - 1);
-  }
-  void live(std::uint32_t made, double value) {
-    Cluster& c = made_.clusters[made];
-    c.mass += (made_.life(last_[made]) - made_.life(value)) * static_cast<double>(c.size);
-    last_[made] = value;
-  }
   /// The points of `c` itself leave it after its children have begun or joined it.
   void live_with_own_points(std::uint32_t c) {
     const Part& part = parts_[c];
@@ -102,7 +87,7 @@ class ClusterTree::Recutter {
     made.size = part.below + Index{place} - Index{finest_.first[c]};
     while (place < end) {
       const double value = value_of(place);
-      live(part.made, value);
+      growth_.live(part.made, value);
       for (; place < end && value_of(place) == value; ++place) ++made.size;
     }
   }
@@ -130,8 +115,8 @@ class ClusterTree::Recutter {
 
   const Data& finest_;
   Data& made_;
-  std::vector<Part> parts_;   // by cluster of the finest tree
-  std::vector<double> last_;  // by new cluster: the last value at which its size changed
+  Growth growth_{made_};
+  std::vector<Part> parts_;  // by cluster of the finest tree
 };
 
 ClusterTree ClusterTree::with_min_size(Index min_size, const RunContext& context) const {
