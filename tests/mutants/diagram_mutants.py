@@ -34,7 +34,7 @@ MUTANTS = [
         ("universal null: Čech as Rips", "null-cech", "0.5", "1"),
         ("quantile: one side of two", "quantile-side", "*", "/ 2 *"),
         ("confidence radius: not doubled", "confidence-doubled", "2 *", ""),
-        ("confidence radius: a node is what its first child is", "confidence-node", "return a == b ? a : a;"),
+        ("confidence radius: a node is what its first child is", "parts-node", "kMixed", "of_node[below]"),
         ("bootstrap: sums, not means", "bootstrap-mean", "/ count", ""),
         ("permutation test: the observed one is no shuffle", "permutation-observed",
          "(static_cast<double>(as_low_count) + 1)", "static_cast<double>(as_low_count)"),

@@ -53,7 +53,7 @@ MUTANTS = [
         ("forest: copies with births joined at 0", "forest-born-copies", ": i", ": first[i]"),
         ("search: ties of births by the last row", "search-birth-tie", "> tree_", "< tree_"),
         ("forest: a leaf is of its first point's component", "forest-leaf",
-         "if (p == tree_.size()) return Parts::kMixed;"),
+         "if (p == tree.size()) of_node[node] = kMixed;"),
         ("search: ties by the order of the tree", "search-tie",
          "return b.position == kNone || a.position < b.position;"),
         ("search: no room for rounding", "search-slack", "1 +", "1 -"),

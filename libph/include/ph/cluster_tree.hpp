@@ -7,6 +7,7 @@
 
 #include "ph/barcode.hpp"
 #include "ph/detail/core/names.hpp"
+#include "ph/detail/metric/metric.hpp"
 #include "ph/filtration.hpp"
 #include "ph/run_context.hpp"
 
@@ -156,5 +157,30 @@ class ClusterTree {
   std::shared_ptr<const Data> data_;
   std::shared_ptr<const Data> finest_;  // the tree with the least size, from which others are made
 };
+
+/// The place of a new point in a hierarchy: the point that it joins first.
+struct Attachment {
+  Index point = -1;          ///< a point of the hierarchy; -1 if there is none
+  double value = kInfinity;  ///< the value of the edge
+};
+
+/// For each added point, the first edge to a point of a hierarchy of points with births.
+/// @param points the points of the hierarchy, one per row. @param births one per point.
+/// @param added_births one per added point: for HDBSCAN*, its core_distances_among the points.
+/// @param p exponent of PointDistance::minkowski.
+/// @throws Error (usage) if rows have different numbers of coordinates, or births are missing;
+/// Error (bad_data) as PointMetric.
+std::vector<Attachment> attachments(PointsView points, std::span<const double> births,
+                                    PointsView added, std::span<const double> added_births,
+                                    PointDistance distance = PointDistance::euclidean, double p = 2,
+                                    const RunContext& context = default_context());
+
+/// For each added point, the distance to the point of rank `neighbours` + 1 among `points`. A copy
+/// of one of the points therefore has the core distance of this point. Infinite if there are fewer
+/// points.
+std::vector<double> core_distances_among(PointsView points, PointsView added, Index neighbours,
+                                         PointDistance distance = PointDistance::euclidean,
+                                         double p = 2,
+                                         const RunContext& context = default_context());
 
 }  // namespace ph

@@ -95,24 +95,24 @@ class Search final : public NeighbourSearch {
              visit_leaf);
   }
 
-  Neighbour nearest_foreign(Position p, const Parts& parts, double limit,
-                            Ties ties) const override {
+  using NeighbourSearch::nearest_foreign;
+  void nearest_foreign(Position p, const Parts& parts, double limit, Ties ties,
+                       std::span<Neighbour> found) const override {
     const std::uint32_t own = parts.of_point[p];
-    Neighbour best{limit, kNone};
+    std::fill(found.begin(), found.end(), Neighbour{limit, kNone});
     double reach = Gaps::reach(limit, slack_);
     const auto visit_leaf = [&](Node leaf) {
       for (Position q = tree_.begin(leaf); q < tree_.end(leaf); ++q) {
         const double sum = gap_to_point(p, q);
         if (sum > reach || parts.of_point[q] == own) continue;
-        insert({distance(p, q, sum), q}, {&best, 1});
-        reach = reach_beside(best, ties);
+        insert({distance(p, q, sum), q}, found);
+        reach = reach_beside(found.back(), ties);
       }
     };
     const auto is_hopeless = [&](Node node, double gap) {
-      return gap > reach || parts.of_node[node] == own || enters_too_late(node, p, best);
+      return gap > reach || parts.of_node[node] == own || enters_too_late(node, p, found.back());
     };
     traverse([&](Node node) { return gap_to_box(p, node); }, is_hopeless, visit_leaf);
-    return best;
   }
 
   double distance(Position p, Position q) const override {
@@ -312,6 +312,22 @@ PointBirths::PointBirths(const KdTree& tree, std::span<const double> births,
     else
       for (const std::size_t below : {2 * std::size_t{node}, 2 * std::size_t{node} + 1})
         least.add(of_node_[below]);
+  }
+}
+
+void NeighbourSearch::Parts::find_nodes(const KdTree& tree, std::span<const std::uint32_t> of_point,
+                                        std::span<std::uint32_t> of_node) {
+  for (Node node = tree.node_count() - 1; node > 0; --node) {
+    if (!tree.is_leaf(node)) {
+      const std::size_t below = 2 * std::size_t{node};
+      // mutant: parts-node
+      of_node[node] = of_node[below] == of_node[below + 1] ? of_node[below] : kMixed;
+      continue;
+    }
+    const Position begin = tree.begin(node), end = tree.end(node);
+    of_node[node] = begin < end ? of_point[begin] : kMixed;
+    for (Position p = begin; p < end; ++p)
+      if (of_point[p] != of_node[node]) of_node[node] = kMixed;  // mutant: forest-leaf
   }
 }
 

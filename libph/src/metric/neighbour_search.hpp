@@ -62,6 +62,10 @@ class NeighbourSearch {
     std::span<const std::uint32_t> of_point;  ///< part of each position
     /// For each node, the part that contains all its points, or kMixed.
     std::span<const std::uint32_t> of_node;
+
+    /// Finds `of_node` from `of_point`. @param of_node one entry per node of the tree.
+    static void find_nodes(const KdTree& tree, std::span<const std::uint32_t> of_point,
+                           std::span<std::uint32_t> of_node);
   };
 
   virtual ~NeighbourSearch() = default;
@@ -77,8 +81,15 @@ class NeighbourSearch {
   virtual void nearest(Node leaf, std::size_t k, double limit, Ties ties,
                        std::span<Neighbour> found) const = 0;
   /// The nearest point of another part at distance <= limit, or kNone.
-  virtual Neighbour nearest_foreign(Position p, const Parts& parts, double limit,
-                                    Ties ties) const = 0;
+  Neighbour nearest_foreign(Position p, const Parts& parts, double limit, Ties ties) const {
+    Neighbour found;
+    nearest_foreign(p, parts, limit, ties, {&found, 1});
+    return found;
+  }
+  /// The nearest points of other parts at distance <= limit, nearest first.
+  /// @param found at least one entry; entries without a neighbour stay kNone.
+  virtual void nearest_foreign(Position p, const Parts& parts, double limit, Ties ties,
+                               std::span<Neighbour> found) const = 0;
   virtual double distance(Position p, Position q) const = 0;
   using VisitPair = std::function<void(Index, Index, double)>;
   /// Calls `visit(i, j, distance)` once for each pair of rows i < j at distance <= limit, in an

@@ -199,20 +199,8 @@ class Boruvka {
     }
     if (components_ == before || components_ == 1) return false;
     for (Position p = 0; p < component_.size(); ++p) component_[p] = sets_.find(p);
-    for (KdTree::Node node = tree_.node_count() - 1; node > 0; --node)
-      node_component_[node] = common_component(node);
+    Parts::find_nodes(tree_, component_, node_component_);
     return true;
-  }
-  std::uint32_t common_component(KdTree::Node node) const {
-    if (!tree_.is_leaf(node)) {
-      const std::size_t below = 2 * std::size_t{node};
-      const std::uint32_t left = node_component_[below], right = node_component_[below + 1];
-      return left == right ? left : Parts::kMixed;
-    }
-    const std::uint32_t first = component_[tree_.begin(node)];
-    for (Position p = tree_.begin(node) + 1; p < tree_.end(node); ++p)
-      if (component_[p] != first) return Parts::kMixed;  // mutant: forest-leaf
-    return first;
   }
 
   const KdTree& tree_;

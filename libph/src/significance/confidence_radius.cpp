@@ -34,26 +34,13 @@ class Subsample {
     draw(order_, size, random);
     std::ranges::fill(of_point_, kOthers);
     for (std::size_t i = 0; i < size; ++i) of_point_[order_[i]] = kChosen;
-    for (KdTree::Node node = tree_.node_count() - 1; node > 0; --node)
-      of_node_[node] = tree_.is_leaf(node) ? part_of_leaf(node)
-                                           : joined(of_node_[2 * node], of_node_[2 * node + 1]);
+    NeighbourSearch::Parts::find_nodes(tree_, of_point_, of_node_);
   }
 
   bool is_chosen(KdTree::Position p) const { return of_point_[p] == kChosen; }
   NeighbourSearch::Parts parts() const { return {of_point_, of_node_}; }
 
  private:
-  static std::uint32_t joined(std::uint32_t a, std::uint32_t b) {
-    return a == b ? a : NeighbourSearch::Parts::kMixed;  // mutant: confidence-node
-  }
-  std::uint32_t part_of_leaf(KdTree::Node leaf) const {
-    const KdTree::Position begin = tree_.begin(leaf), end = tree_.end(leaf);
-    if (begin == end) return NeighbourSearch::Parts::kMixed;
-    std::uint32_t part = of_point_[begin];
-    for (KdTree::Position p = begin + 1; p < end; ++p) part = joined(part, of_point_[p]);
-    return part;
-  }
-
   const KdTree& tree_;
   std::pmr::vector<std::uint32_t> order_, of_point_, of_node_;
 };

@@ -492,6 +492,56 @@ TEST(ClusterTrees, OfFewPointsAndBadNumbers) {
   });
 }
 
+// Compares with the definition. A fitted point gets its own core distance, and joins the hierarchy
+// at that value.
+TEST(Attachments, AreWhatTheyAreByDefinition) {
+  constexpr PointDistance kinds[] = {PointDistance::euclidean, PointDistance::manhattan,
+                                     PointDistance::chebyshev, PointDistance::hamming};
+  for_each_seed(800, [&](Generator& random, bool ties, std::int64_t) {
+    Sample sample = sample_of(random, ties, 60);
+    const Index n = sample.points.rows();
+    const PointDistance distance = kinds[random.integer(0, 3)];
+    Points added = random.points(random.integer(0, 20), sample.points.cols(), ties);
+    for (Index i = 0; i < added.rows(); i += 2) copy_point(sample.points, i % n, added, i);
+    const std::vector<double> core = core_distances(sample.points, sample.k, distance),
+                              of_added =
+                                  core_distances_among(sample.points, added, sample.k, distance);
+    const std::vector<Attachment> found =
+        attachments(sample.points, core, added, of_added, distance);
+    ASSERT_EQ(found.size(), std::size_t(added.rows()));
+    for (Index i = 0; i < added.rows(); ++i) {
+      Points both(n + 1, added.cols());
+      for (Index j = 0; j < n; ++j) copy_point(sample.points, j, both, j);
+      copy_point(added, i, both, n);
+      const PointMetric metric(both, distance);
+      std::vector<double> lengths;
+      for (Index j = 0; j < n; ++j) lengths.push_back(metric(j, n));
+      std::vector<double> sorted = lengths;
+      std::ranges::sort(sorted);
+      const double born = sample.k == 0 ? 0 : sorted[std::size_t(sample.k)];
+      EXPECT_EQ(of_added[std::size_t(i)], born);
+      Attachment best;
+      for (Index j = 0; j < n; ++j) {
+        const double value = std::max({lengths[std::size_t(j)], core[std::size_t(j)], born});
+        if (value < best.value) best = {j, value};
+      }
+      EXPECT_EQ(found[std::size_t(i)].point, best.point);
+      EXPECT_EQ(found[std::size_t(i)].value, best.value);
+      if (i % 2 == 0) {
+        EXPECT_EQ(born, core[std::size_t(i % n)]);
+      }
+    }
+  });
+  expect_error(ErrorKind::usage, "found 1 coordinates, expected 2", [] {
+    core_distances_among(Points{{0, 0}}, Points{{1}}, 0);
+  });
+  expect_error(ErrorKind::usage, "one per point", [] {
+    attachments(Points{{0, 0}}, {}, Points{{1, 1}}, std::vector<double>{0});
+  });
+  EXPECT_EQ(core_distances_among(Points{{0, 0}}, Points{{1, 1}}, 1)[0], kInf);
+  EXPECT_EQ(attachments(Points(0, 2), {}, Points{{1, 1}}, std::vector<double>{0})[0].point, -1);
+}
+
 TEST(OutlierScores, AreWhatTheyAreByDefinition) {
   const Points line{{0.0}, {1.0}, {2.0}, {2.0}, {10.0}};
   const ClusterTree tree(Rips(line), 2);
