@@ -80,6 +80,35 @@ MergeTree merge_tree_of(const py::buffer& births, const py::buffer& u, const py:
   });
 }
 
+Block core_distances_of_added(const py::buffer& points, const py::buffer& added, Index neighbours,
+                              PointDistance distance, double p, const RunOptions& options) {
+  const py::buffer_info of_points = points.request(), of_added = added.request();
+  const PointsView view = points_of(of_points), added_view = points_of(of_added);
+  return Block::of(run(options, false, [&](const RunContext& context) {
+    return core_distances_among(view, added_view, neighbours, distance, p, context);
+  }));
+}
+
+/// @return for each added point, a point of the hierarchy, or -1, and the value of the edge.
+py::tuple attachments_of(const py::buffer& points, const py::buffer& births,
+                         const py::buffer& added, const py::buffer& added_births,
+                         PointDistance distance, double p, const RunOptions& options) {
+  const py::buffer_info of_points = points.request(), of_added = added.request();
+  const PointsView view = points_of(of_points), added_view = points_of(of_added);
+  const std::vector<double> born = vector_of<double>(births),
+                            added_born = vector_of<double>(added_births);
+  const std::vector<Attachment> found = run(options, false, [&](const RunContext& context) {
+    return attachments(view, born, added_view, added_born, distance, p, context);
+  });
+  std::vector<Index> point;
+  std::vector<double> value;
+  for (const Attachment& a : found) {
+    point.push_back(a.point);
+    value.push_back(a.value);
+  }
+  return py::make_tuple(Block::of(std::move(point)), Block::of(std::move(value)));
+}
+
 /// One member of the clusters, as an array with one entry per cluster.
 template <class Number, class Member>
 Block column(const ClusterTree& tree, Member Cluster::*member) {
@@ -133,6 +162,10 @@ void bind_clusters(py::module_& m) {
             });
           },
           py::arg("min_size"), py::arg("run"));
+  m.def("core_distances_among", &core_distances_of_added, py::arg("points"), py::arg("added"),
+        py::arg("neighbours"), py::arg("distance"), py::arg("p"), py::arg("run"));
+  m.def("attachments", &attachments_of, py::arg("points"), py::arg("births"), py::arg("added"),
+        py::arg("added_births"), py::arg("distance"), py::arg("p"), py::arg("run"));
   m.def("merge_tree_of_forest", &merge_tree_of, py::arg("births"), py::arg("u"), py::arg("v"),
         py::arg("values"), py::arg("run"));
   m.def("spanning_forest", &spanning_forest_of, py::arg("recipe"), py::arg("run"), py::arg("size"));

@@ -12,7 +12,7 @@ from sklearn.base import BaseEstimator, ClusterMixin
 from sklearn.metrics import pairwise_distances
 from sklearn.utils.validation import check_is_fitted
 
-from .. import _options
+from .. import _core, _options, _run
 from .._clusters import Clusters, ClusterTree, cluster_tree, of_forest
 from .._errors import DataError, UsageError
 from .._points import core_distances
@@ -140,13 +140,13 @@ class HDBSCAN(ClusterMixin, BaseEstimator):
         if is_precomputed:
             self._marks = _check_distances(data)
         else:
-            self._marks = np.where(np.isnan(data).any(axis=1), MISSING,
-                                   np.where(np.isinf(data).any(axis=1), INFINITE, 0))
+            self._marks = _marks_of(data)
         kept = np.flatnonzero(self._marks == 0)
         self.cluster_tree_ = self._tree_of(data, kept, min_size)
         chosen = self.cluster_tree_.select(**self._selection())
         self.labels_, self.probabilities_ = self._marked(chosen)
         self._chosen = chosen.chosen
+        self._data = data  # for predict
         self._centres_of(data)
         return self
 
@@ -235,14 +235,21 @@ class HDBSCAN(ClusterMixin, BaseEstimator):
         clusters = tree.clusters
         is_leaf = np.ones(len(clusters), dtype=bool)
         is_leaf[clusters["parent"][clusters["parent"] >= 0]] = False
-        label = np.full(len(clusters), -1)
-        label[self._chosen] = np.arange(len(self._chosen))
-        for c in range(len(clusters) - 2, -1, -1):  # parents come after their children
-            if label[c] < 0:
-                label[c] = label[clusters["parent"][c]]
+        label = self._label_of_clusters()
         own = tree.cluster_of
         is_last = is_leaf[own] & (tree.leaves_at == clusters["bottom"][own]) & (self.labels_ >= 0)
         return [np.flatnonzero(is_last & (label[own] == c)) for c in range(len(self._chosen))]
+
+    def _label_of_clusters(self) -> _Integers:
+        """For each cluster of the tree, the label of the chosen cluster at or around it; -1 if there
+        is none."""
+        parents = self.cluster_tree_.clusters["parent"]
+        label = np.full(len(parents), -1)
+        label[self._chosen] = np.arange(len(self._chosen))
+        for c in range(len(parents) - 2, -1, -1):  # parents come after their children
+            if label[c] < 0:
+                label[c] = label[parents[c]]
+        return label
 
     @property
     def merge_tree_(self) -> MergeTree:
@@ -289,6 +296,81 @@ allow_single_cluster, max_cluster_size
         return self._marked(tree.select(**{
             **self._selection(), **{k: v for k, v in changes.items() if v is not None}}))[0]
 
+    def predict(self, X: Any) -> _Integers:
+        """The clusters that new rows would join.
+
+        A row gets the core distance that it would have among the fitted rows, and joins the fitted
+        row that it reaches first. It stays with this row as long as the row stays in its cluster.
+        The clusters themselves do not change. For the fitted rows, the result is `labels_`.
+
+        Parameters
+        ----------
+        X : array_like
+            New points. With ``metric="precomputed"``, their distances from the fitted rows.
+
+        Returns
+        -------
+        ndarray
+            Labels as in `labels_`.
+        """
+        return self._located(X)[0]
+
+    def _located(self, X: Any) -> tuple[_Integers, _Numbers]:
+        """Labels and probabilities of new rows."""
+        check_is_fitted(self)
+        data = table_of(self, X, reset=False, are_finite=False)
+        is_precomputed = self._metric() == "precomputed"
+        marks = np.zeros(len(data), dtype=np.int64) if is_precomputed else _marks_of(data)
+        tree = self.cluster_tree_
+        joined, values = np.full(len(data), -1), np.full(len(data), np.inf)
+        kept = marks == 0
+        joined[kept], values[kept] = self._attachments(data[kept])
+        clusters, has_point = tree.clusters, joined >= 0
+        cluster = np.where(has_point, tree.cluster_of[joined], len(clusters) - 1)
+        leaves_at = np.where(has_point, np.maximum(tree.leaves_at[joined], values), np.inf)
+        while True:
+            parent = clusters["parent"][cluster]
+            is_past = (clusters["top"][cluster] <= values) & (parent >= 0)
+            if not is_past.any():
+                break
+            cluster = np.where(is_past, parent, cluster)
+        label = self._label_of_clusters()[cluster]
+        if len(clusters) - 1 in self._chosen:  # the root has noise
+            limit = self.cluster_selection_epsilon or clusters["bottom"][-1]
+            label[(cluster == len(clusters) - 1) & (leaves_at > limit)] = -1
+        bottom = clusters["bottom"][self._chosen][label] if len(self._chosen) else values
+        with np.errstate(invalid="ignore"):
+            share = np.where(leaves_at <= bottom, 1.0, bottom / leaves_at)
+        return (np.where(marks < 0, marks, label),
+                np.where(marks == MISSING, np.nan, np.where(label < 0, 0.0, share)))
+
+    def _attachments(self, data: _Numbers) -> tuple[_Integers, _Numbers]:
+        """For each new row, the fitted row that it reaches first, and the value at which it does."""
+        births = self.cluster_tree_.births
+        fitted = np.flatnonzero(np.isfinite(births))
+        rank = self.min_cluster_size if self.min_samples is None else self.min_samples
+        metric, alpha, options = self._metric(), self.alpha, {
+            "threads": effective_n_jobs(self.n_jobs)}
+        if isinstance(metric, str) and metric != "precomputed":
+            p = float((self.metric_params or {}).get("p", 2.0))
+            points = np.ascontiguousarray(self._data[fitted])
+            core = np.asarray(_run.run(_core.core_distances_among, points, data, rank - 1, metric, p,
+                                       options=options))
+            found = _run.run(_core.attachments, points, births[fitted] * alpha, data, core * alpha,
+                             metric, p, options=options)
+            joined, values = (np.asarray(block) for block in found)
+        else:
+            distances = data[:, fitted] if metric == "precomputed" else np.array(
+                [[metric(x, y) for y in self._data[fitted]] for x in data]).reshape(len(data), -1)
+            core = np.zeros(len(data)) if rank == 1 else np.full(len(data), np.inf)
+            if 1 < rank <= len(fitted):
+                core = np.partition(distances, rank - 1, axis=1)[:, rank - 1]
+            reach = np.maximum(np.maximum(distances, births[fitted] * alpha), core[:, None] * alpha)
+            joined = reach.argmin(axis=1)
+            values = reach.min(axis=1)
+            joined[np.isinf(values)] = -1
+        return np.where(joined >= 0, fitted[joined], -1), values / alpha
+
     def dbscan_clustering(self, cut_distance: float, min_cluster_size: int = 5) -> _Integers:
         """The labels of DBSCAN* with a given radius: clusters are components at one value.
 
@@ -320,6 +402,12 @@ allow_single_cluster, max_cluster_size
         tags.input_tags.pairwise = self.metric == "precomputed"
         tags.input_tags.sparse = self.metric == "precomputed"
         return tags
+
+
+def _marks_of(data: _Numbers) -> _Integers:
+    """For each row, 0 or the label of a row that is not finite."""
+    return np.where(np.isnan(data).any(axis=1), MISSING,
+                    np.where(np.isinf(data).any(axis=1), INFINITE, 0))
 
 
 def _check_distances(data: Any) -> _Integers:

@@ -153,6 +153,39 @@ def test_other_parameters_need_no_other_forest(rng):
         fitted.cut(min_samples=3)
 
 
+@pytest.mark.parametrize("options", [
+    {}, {"min_samples": 1}, {"cluster_selection_method": "leaf"}, {"alpha": 1.5},
+    {"cluster_selection_epsilon": 0.5}, {"allow_single_cluster": True}, {"metric": "manhattan"},
+    {"metric": lambda a, b: float(np.abs(a - b).max())}, {"metric": "precomputed"}], ids=str)
+def test_fitted_rows_are_predicted_as_they_are(rng, options):
+    for X in (blobs(rng), blobs(rng).round(1)):
+        data = spatial.squareform(spatial.pdist(X)) if options.get("metric") == "precomputed" else X
+        found = HDBSCAN(**options).fit(data)
+        assert np.array_equal(found.predict(data), found.labels_)
+        assert np.array_equal(found._located(data)[1], found.probabilities_)
+
+
+def test_new_rows_are_predicted_by_definition(rng):
+    X = blobs(rng)
+    found = HDBSCAN(6, 4).fit(X)
+    V, core = reachability(X, 3)
+    for row in np.vstack([rng.uniform(-3, 6, (40, 2)), [[np.nan, 0], [0, np.inf]]]):
+        label = found.predict([row])[0]
+        if not np.isfinite(row).all():
+            assert label == (-3 if np.isnan(row).any() else -2)
+            continue
+        lengths = np.linalg.norm(X - row, axis=1)
+        reach = np.maximum(np.maximum(np.sort(lengths)[3], core), lengths)
+        q, value = reach.argmin(), reach.min()
+        # The row has the label of a cluster if its component at `value` lies in that cluster.
+        part = next(p for p in components(V, range(len(X)), np.nextafter(value, np.inf)) if q in p)
+        labels = set(found.labels_[part].tolist()) - {-1}
+        expected = found.labels_[q] if value <= found.cluster_tree_.leaves_at[q] else (
+            labels.pop() if len(labels) == 1 and any(
+                set(part) <= c for c in partition(found.labels_)) else -1)
+        assert label == expected
+
+
 def test_more_results(rng):
     X = blobs(rng)
     found = HDBSCAN(store_centers="both").fit(X)
