@@ -30,16 +30,14 @@ void check(Index points, Index min_size) {
                 fmt::format("clusters: found {} points, expected fewer than 2^32 - 1", points));
 }
 
-/// @param edges ascending. @return the scale of their values.
+/// @param edges ascending and finite. @return the scale of their values.
 detail::Lifetime lifetime_of(ClusterScale scale, std::span<const FlagEdge> edges) {
   if (scale != ClusterScale::linear && !edges.empty() && edges.front().value < 0)
     throw Error(ErrorKind::usage,
                 fmt::format("clusters: found the value {}, expected values >= 0 with the scale "
                             "{}; use the scale linear",
                             edges.front().value, name_of(scale)));
-  const auto is_finite = [](const FlagEdge& e) { return e.value < kInfinity; };
-  const auto end = std::ranges::partition_point(edges, is_finite);
-  return {scale, end == edges.begin() ? 0 : std::prev(end)->value};
+  return {scale, edges.empty() ? 0 : edges.back().value};
 }
 
 }  // namespace
@@ -64,7 +62,7 @@ class ClusterTree::Condenser {
     order_.reserve(next_.size());
   }
 
-  /// @param edges of a forest, ascending.
+  /// @param edges ascending and finite.
   void run(std::span<const FlagEdge> edges) {
     for (auto begin = edges.begin(); begin != edges.end();) {
       const auto end = std::find_if(begin, edges.end(),
@@ -229,6 +227,9 @@ std::shared_ptr<const ClusterTree::Data> ClusterTree::condensed(std::span<const 
                                                                 ClusterScale scale,
                                                                 const RunContext& context) {
   check(points, min_size);
+  // All components that are left are joined at infinity at once, with or without such edges.
+  const auto is_finite = [](const FlagEdge& e) { return e.value < kInfinity; };
+  edges = {edges.begin(), std::ranges::partition_point(edges, is_finite)};
   auto data = std::make_shared<Data>(Data{min_size, scale, lifetime_of(scale, edges), {}, {}, {}});
   Condenser(*data, points, context).run(edges);
   return data;

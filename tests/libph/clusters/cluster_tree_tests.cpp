@@ -257,7 +257,8 @@ TEST(ClusterTrees, OfAMergeTreeAreThoseOfItsFiltration) {
 TEST(ClusterTrees, OfAGraphAreThoseOfItsForest) {
   for_each_seed(300, [](Generator& random, bool ties, std::int64_t) {
     const Sample sample = sample_of(random, ties, 30);
-    const Values values(sample.points, sample.k);
+    Values values(sample.points, sample.k);
+    if (random.coin()) values.set_all_above(random.value(ties), kInf);
     std::vector<WeightedEdge> edges;
     for (Index i = 0; i < values.size(); ++i)
       for (Index j = 0; j < i; ++j) edges.push_back({i, j, values.at(i, j)});
