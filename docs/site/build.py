@@ -35,8 +35,8 @@ HEADERS = ["libph/include/ph", "libph/include/ph/io", "libph/include/ph/parts",
            "libsegment/include/ph", "libsegment/pcl/include/ph",
            "libreport/include/ph"]
 # Headers outside the public ones with declarations that readers need.
-DETAIL = ["components/branch", "complex/filtered_graph", "core/engine", "core/loop", "io/camera",
-          "io/cloud_data", "io/png", "io/reader", "metric/metric", "rips/vertex_weights"]
+DETAIL = ["components/branch", "complex/filtered_graph", "core/barcode_info", "core/engine",
+          "core/loop", "io/camera", "io/cloud_data", "io/png", "io/reader", "metric/metric", "rips/vertex_weights"]
 DETAIL_OF_REPORTS = ["provenance", "shown_tree"]
 
 

@@ -8,6 +8,7 @@
 #include <tuple>
 #include <utility>
 
+#include "ph/detail/core/on_first_use.hpp"
 #include "ph/detail/core/polled_sort.hpp"
 #include "ph/detail/core/radix_sort.hpp"
 #include "ph/error.hpp"
@@ -57,8 +58,8 @@ void Barcode::set_representative(Representatives kind, std::span<const Index> nu
 }
 
 const BarcodeInfo& Barcode::info() const {
-  static const BarcodeInfo unknown;
-  return info_ ? *info_ : unknown;
+  static constinit detail::OnFirstUse unknown([] { return BarcodeInfo(); });
+  return info_ ? *info_ : *unknown;
 }
 
 std::size_t Barcode::store_voxels(std::span<const std::uint32_t> places) {

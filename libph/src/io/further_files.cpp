@@ -35,9 +35,10 @@ std::optional<Format> format_of(const fs::path& path) {
 }
 
 // The name of the file that a header names. Only as much is read as the header may take, because
-// the data may follow it.
+// the data may follow it. Nobody writes a header of a mebibyte, and damaged files are not to take
+// much memory.
 std::optional<std::string> data_file_of(const fs::path& path, Format format) {
-  constexpr std::size_t first = std::size_t{1} << 16, last = std::size_t{1} << 24;
+  constexpr std::size_t first = std::size_t{1} << 16, last = std::size_t{1} << 20;
   for (std::size_t most = first; most <= last; most *= 4) {
     const std::string start = start_of(path, most);
     const bool is_whole = start.size() < most;

@@ -94,9 +94,10 @@ def test_pages_of_points(barcode_page, points, options, arguments):
     origin, _ = check(bars.report(points, title="points.npy"), written) \
         if options.get("min_persistence", 0) >= 0 else ({}, {})
     if options.get("weights"):
-        exponent = options.get("weight_exponent", 1)
+        kind = options["weights"]
+        exponent = options.get("weight_exponent", 1 if kind == "dtm" else "inf")
         assert origin["notes"]["Vertices enter late"] == \
-            f"dtm {options['dtm_neighbors']}, exponent {exponent}"
+            f"{kind} {options[f'{kind}_neighbors']}, exponent {exponent}"
     if "approximation" in options:
         assert "epsilon 1" in origin["notes"]["Approximation"]
 
