@@ -411,13 +411,15 @@ TEST(Alpha, BarsStateTheirOrigin) {
   const BarcodeInfo torus = persistence(Alpha(points, {.period = {4, 0}})).info();
   ASSERT_TRUE(torus.alpha);
   EXPECT_EQ(torus.alpha->period, (std::vector<double>{4, 0}));
-  // The ball of point 0 hides the others. In the input, they have other numbers.
-  const Alpha weighted(points, {.weights = {9, 0, 0, 0}, .unit = AlphaOptions::Unit::squared});
+  // Three large balls hide the last point, which lies between them.
+  const std::vector<double> triangle{0, 0, 4, 0, 0, 4, 1, 1};
+  const Alpha weighted(PointsView(triangle.data(), 4, 2),
+                       {.weights = {9, 9, 9, 0}, .unit = AlphaOptions::Unit::squared});
   const Barcode bars = persistence(weighted);
   EXPECT_EQ(bars.info().vertex_weights, "squared radii of balls, given");
   ASSERT_TRUE(bars.info().alpha);
-  EXPECT_EQ(bars.info().alpha->hidden, (std::vector<Index>{1, 2, 3}));
-  EXPECT_EQ(with_input_ids(bars, {0, 2, 3, 7}).info().alpha->hidden, (std::vector<Index>{2, 3, 7}));
+  EXPECT_EQ(bars.info().alpha->hidden, (std::vector<Index>{3}));
+  EXPECT_EQ(with_input_ids(bars, {0, 2, 3, 7}).info().alpha->hidden, (std::vector<Index>{7}));
 }
 
 }  // namespace
