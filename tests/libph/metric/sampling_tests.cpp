@@ -324,6 +324,20 @@ TEST(CoreDistances, AreWhatTheyAreByDefinition) {
   });
 }
 
+// With more than eight axes, all pairs are compared.
+TEST(CoreDistances, OfManyAxes) {
+  for_each_seed(300, [](Generator& random, bool ties, std::int64_t) {
+    Points points = random.points(random.integer(1, 90), random.integer(9, 14), ties);
+    if (random.integer(0, 4) == 0) points = scaled(points, std::ldexp(1, -520));
+    const PointMetric metric(points);
+    const Index n = points.rows(), k = random.integer(0, static_cast<int>(n) - 1);
+    EXPECT_EQ(core_distances(points, k), core_distances(metric, k));
+    if (k > 0) {
+      EXPECT_EQ(distance_to_measure(points, k), distance_to_measure(metric, k));
+    }
+  });
+}
+
 TEST(CoreDistances, CopiesCountAndBadNumbersAreRefused) {
   const Points line{{0}, {0}, {0}, {3}, {4}};
   EXPECT_EQ(core_distances(line, 2), (std::vector<double>{0, 0, 0, 3, 4}));
