@@ -153,12 +153,18 @@ class ClusterTree:
         -------
         Clusters
         """
-        labels, probabilities, chosen = self._tree.select(
-            _options.choice("method", method, METHODS),
-            _options.real("epsilon", epsilon, "a number, at least 0", 0),
-            _options.flag("allow_single", allow_single),
-            0 if max_size is None else _options.whole("max_size", max_size, 1))
-        return Clusters(np.asarray(labels), np.asarray(probabilities), np.asarray(chosen))
+        return _clusters_of(self._tree.select(
+            *_selection(method, epsilon, allow_single, max_size)))
+
+    def _locate(self, points: NDArray[np.int64], values: NDArray[np.float64],
+                method: str = "eom", *, epsilon: float = 0.0, allow_single: bool = False,
+                max_size: int | None = None) -> Clusters:
+        """The clusters of added points. `points` has the point of the tree that each one joins, -1
+        if there is none, and `values` the value at which it does."""
+        return _clusters_of(self._tree.locate(
+            np.ascontiguousarray(points, dtype=np.int64),
+            np.ascontiguousarray(values, dtype=np.float64),
+            *_selection(method, epsilon, allow_single, max_size)))
 
     def cut(self, value: float, *, min_size: int = 1) -> NDArray[np.int64]:
         """The components at a value, as labels 0, 1, … in the order of their first points.
@@ -192,6 +198,19 @@ class ClusterTree:
         clustering, visualization, and outlier detection, 2015).
         """
         return np.asarray(self._tree.outlier_scores())
+
+
+def _selection(method: str, epsilon: float, allow_single: bool, max_size: int | None
+               ) -> tuple[str, float, bool, int]:
+    """The options of a choice of clusters, checked."""
+    return (_options.choice("method", method, METHODS),
+            _options.real("epsilon", epsilon, "a number, at least 0", 0),
+            _options.flag("allow_single", allow_single),
+            0 if max_size is None else _options.whole("max_size", max_size, 1))
+
+
+def _clusters_of(blocks: tuple[Any, Any, Any]) -> Clusters:
+    return Clusters(*(np.asarray(block) for block in blocks))
 
 
 def numbered(component: NDArray[Any], is_kept: NDArray[np.bool_]) -> NDArray[np.int64]:

@@ -109,6 +109,23 @@ py::tuple attachments_of(const py::buffer& points, const py::buffer& births,
   return py::make_tuple(Block::of(std::move(point)), Block::of(std::move(value)));
 }
 
+py::tuple blocks_of(Clusters found) {
+  return py::make_tuple(Block::of(std::move(found.labels)),
+                        Block::of(std::move(found.probabilities)),
+                        Block::of(std::vector<Index>(found.chosen.begin(), found.chosen.end())));
+}
+
+/// @param points, values the Attachment of each added point.
+py::tuple located_of(const ClusterTree& tree, const py::buffer& points, const py::buffer& values,
+                     const ClusterOptions& options) {
+  const std::vector<Index> point = vector_of<Index>(points);
+  const std::vector<double> value = vector_of<double>(values);
+  std::vector<Attachment> added;
+  added.reserve(point.size());
+  for (std::size_t i = 0; i < point.size(); ++i) added.push_back({point[i], value[i]});
+  return blocks_of(tree.locate(added, options));
+}
+
 /// One member of the clusters, as an array with one entry per cluster.
 template <class Number, class Member>
 Block column(const ClusterTree& tree, Member Cluster::*member) {
@@ -147,12 +164,17 @@ void bind_clusters(py::module_& m) {
           "select",
           [](const ClusterTree& t, ClusterMethod method, double epsilon, bool allow_single,
              Index max_size) {
-            Clusters found = t.select({method, epsilon, allow_single, max_size});
-            return py::make_tuple(
-                Block::of(std::move(found.labels)), Block::of(std::move(found.probabilities)),
-                Block::of(std::vector<Index>(found.chosen.begin(), found.chosen.end())));
+            return blocks_of(t.select({method, epsilon, allow_single, max_size}));
           },
           py::arg("method"), py::arg("epsilon"), py::arg("allow_single"), py::arg("max_size"))
+      .def(
+          "locate",
+          [](const ClusterTree& t, const py::buffer& points, const py::buffer& values,
+             ClusterMethod method, double epsilon, bool allow_single, Index max_size) {
+            return located_of(t, points, values, {method, epsilon, allow_single, max_size});
+          },
+          py::arg("points"), py::arg("values"), py::arg("method"), py::arg("epsilon"),
+          py::arg("allow_single"), py::arg("max_size"))
       .def("outlier_scores", [](const ClusterTree& t) { return Block::of(t.outlier_scores()); })
       .def(
           "with_min_size",

@@ -23,8 +23,11 @@ MUTANTS = [
     ]),
     *found_by("cluster_tree_tests", [
         ("clusters: larger than the least size", "cluster-real", ">=", ">"),
-        ("clusters: children kept at equal mass", "cluster-mass", ">=", ">"),
         ("clusters: the least size is too small", "cluster-recut", "<", "<="),
+    ]),
+    *found_by("chosen_clusters_tests", [
+        ("clusters: children kept at equal mass", "cluster-mass", ">=", ">"),
+        ("clusters: an added point stays at the value of the join", "cluster-joins", "<=", "<"),
     ]),
     *found_by("persistence_tests", [
         ("plan: any number is a field", "field-is-prime", ""),

@@ -59,6 +59,12 @@ struct ClusterOptions {
   Index max_size = 0;
 };
 
+/// The place of a new point in a hierarchy: the point that it joins first.
+struct Attachment {
+  Index point = -1;          ///< a point of the hierarchy; -1 if there is none
+  double value = kInfinity;  ///< the value of the edge
+};
+
 /// A partition of the points into clusters and noise.
 struct Clusters {
   /// The cluster of each point, 0, 1, … in the order of the first point of each cluster; -1 is
@@ -137,6 +143,12 @@ class ClusterTree {
   /// Chooses clusters. O(n). @throws Error (usage) if epsilon is negative or NaN, or max_size is
   /// negative.
   Clusters select(const ClusterOptions& options = {}) const;
+  /// The clusters of points that are added to those that `select` chooses. A point that joins the
+  /// hierarchy stays with the point that it joins; the clusters do not change. A point without an
+  /// edge is noise.
+  /// @return labels and probabilities of the added points; `chosen` is as in `select`.
+  /// @throws Error (usage) as `select`, and on a point that the tree does not have.
+  Clusters locate(std::span<const Attachment> added, const ClusterOptions& options = {}) const;
   /// GLOSH, for each point (Campello, Moulavi, Zimek, Sander, Hierarchical density estimates for
   /// data clustering, visualization, and outlier detection, 2015): 1 minus the quotient of the life
   /// of the point and the life of the last point of the cluster that it leaves, from 0 to 1.
@@ -156,12 +168,6 @@ class ClusterTree {
 
   std::shared_ptr<const Data> data_;
   std::shared_ptr<const Data> finest_;  // the tree with the least size, from which others are made
-};
-
-/// The place of a new point in a hierarchy: the point that it joins first.
-struct Attachment {
-  Index point = -1;          ///< a point of the hierarchy; -1 if there is none
-  double value = kInfinity;  ///< the value of the edge
 };
 
 /// For each added point, the first edge to a point of a hierarchy of points with births.

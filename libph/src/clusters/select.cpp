@@ -72,6 +72,39 @@ Flags widened(std::span<const Cluster> clusters, const std::vector<std::int64_t>
   return wide;
 }
 
+void check(const ClusterOptions& options) {
+  if (!(options.epsilon >= 0))
+    throw Error(ErrorKind::usage,
+                fmt::format("epsilon: found {}, expected a number >= 0", options.epsilon));
+  if (options.max_size < 0)
+    throw Error(ErrorKind::usage,
+                fmt::format("max_size: found {}, expected 0 or more points", options.max_size));
+}
+
+/// The chosen clusters of a tree that is not empty.
+class Choice {
+ public:
+  Choice(std::span<const Cluster> tree, const ClusterOptions& options)
+      : chosen_(outermost(tree, options.method == ClusterMethod::leaf ? leaves(tree, options)
+                                                                      : heaviest(tree, options))),
+        root_(static_cast<std::int64_t>(root_of(tree))),
+        limit_of_root_(options.epsilon > 0 ? options.epsilon : tree.back().bottom) {
+    if (options.epsilon > 0) chosen_ = outermost(tree, widened(tree, chosen_, options));
+  }
+
+  /// @param value the value at which a point leaves a cluster.
+  /// @return the chosen cluster of the point; -1: it is noise.
+  std::int64_t of(std::uint32_t cluster, double value) const {
+    const std::int64_t c = chosen_[cluster];
+    return c == root_ && value > limit_of_root_ ? -1 : c;
+  }
+
+ private:
+  std::vector<std::int64_t> chosen_;  // by cluster: the chosen cluster at or around it, or -1
+  std::int64_t root_;
+  double limit_of_root_;  // a point that leaves the root at a larger value is noise
+};
+
 }  // namespace
 
 Index ClusterTree::size() const { return static_cast<Index>(data_->cluster_of.size()); }
@@ -82,37 +115,57 @@ std::span<const std::uint32_t> ClusterTree::cluster_of() const { return data_->c
 std::span<const double> ClusterTree::leaves_at() const { return data_->leaves_at; }
 
 Clusters ClusterTree::select(const ClusterOptions& options) const {
-  if (!(options.epsilon >= 0))
-    throw Error(ErrorKind::usage,
-                fmt::format("epsilon: found {}, expected a number >= 0", options.epsilon));
-  if (options.max_size < 0)
-    throw Error(ErrorKind::usage,
-                fmt::format("max_size: found {}, expected 0 or more points", options.max_size));
+  check(options);
   const Data& data = *data_;
-  const std::span<const Cluster> tree = data.clusters;
   Clusters result;
-  if (tree.empty()) return result;
-  std::vector<std::int64_t> chosen =
-      outermost(tree, options.method == ClusterMethod::leaf ? leaves(tree, options)
-                                                            : heaviest(tree, options));
-  if (options.epsilon > 0) chosen = outermost(tree, widened(tree, chosen, options));
-
-  const auto root = static_cast<std::int64_t>(root_of(tree));
-  const double limit_of_root = options.epsilon > 0 ? options.epsilon : tree.back().bottom;
-  std::vector<Index> label(tree.size(), -1);
+  if (data.clusters.empty()) return result;
+  const Choice choice(data.clusters, options);
+  std::vector<Index> label(data.clusters.size(), -1);
   result.labels.resize(data.cluster_of.size(), -1);
   result.probabilities.resize(data.cluster_of.size());
   for (std::size_t p = 0; p < data.cluster_of.size(); ++p) {
-    const std::int64_t c = chosen[data.cluster_of[p]];
     const double value = data.leaves_at[p];
-    if (c < 0 || (c == root && value > limit_of_root)) continue;
+    const std::int64_t c = choice.of(data.cluster_of[p], value);
+    if (c < 0) continue;
     Index& number = label[static_cast<std::size_t>(c)];
     if (number < 0) {
       number = static_cast<Index>(result.chosen.size());
       result.chosen.push_back(static_cast<std::uint32_t>(c));
     }
     result.labels[p] = number;
-    result.probabilities[p] = data.life.share(tree[static_cast<std::size_t>(c)].bottom, value);
+    result.probabilities[p] =
+        data.life.share(data.clusters[static_cast<std::size_t>(c)].bottom, value);
+  }
+  return result;
+}
+
+Clusters ClusterTree::locate(std::span<const Attachment> added,
+                             const ClusterOptions& options) const {
+  const Data& data = *data_;
+  for (const Attachment& a : added)
+    if (a.point >= size())
+      throw Error(ErrorKind::usage,
+                  fmt::format("point: found {}, expected one of the {} points", a.point, size()));
+  Clusters result{std::vector<Index>(added.size(), -1), std::vector<double>(added.size()),
+                  select(options).chosen};
+  if (result.chosen.empty()) return result;
+  const Choice choice(data.clusters, options);
+  std::vector<Index> label(data.clusters.size(), -1);
+  for (std::size_t i = 0; i < result.chosen.size(); ++i)
+    label[result.chosen[i]] = static_cast<Index>(i);
+  for (std::size_t i = 0; i < added.size(); ++i) {
+    const auto [point, joins_at] = added[i];
+    if (point < 0) continue;
+    std::uint32_t cluster = data.cluster_of[static_cast<std::size_t>(point)];
+    while (data.clusters[cluster].top <= joins_at &&  // mutant: cluster-joins
+           data.clusters[cluster].parent >= 0)
+      cluster = static_cast<std::uint32_t>(data.clusters[cluster].parent);
+    const double value = std::max(data.leaves_at[static_cast<std::size_t>(point)], joins_at);
+    const std::int64_t c = choice.of(cluster, value);
+    if (c < 0 || label[static_cast<std::size_t>(c)] < 0) continue;
+    result.labels[i] = label[static_cast<std::size_t>(c)];
+    result.probabilities[i] =
+        data.life.share(data.clusters[static_cast<std::size_t>(c)].bottom, value);
   }
   return result;
 }

@@ -16,6 +16,7 @@ from .. import _core, _options, _run
 from .._clusters import Clusters, ClusterTree, cluster_tree, of_forest
 from .._errors import DataError, UsageError
 from .._points import core_distances
+from .._sources import METRICS
 from .._trees import MergeTree
 from ._base import table_of
 
@@ -23,8 +24,7 @@ _Integers = NDArray[np.int64]
 _Numbers = NDArray[np.float64]
 
 INFINITE, MISSING = -2, -3  # labels of rows with infinite numbers and with NaN
-_METRICS = {"l1": "manhattan", "cityblock": "manhattan", "l2": "euclidean",
-            "infinity": "chebyshev", "p": "minkowski"}
+_METRICS = {**METRICS, "infinity": "chebyshev", "p": "minkowski"}  # by scikit-learn's names
 
 
 class HDBSCAN(ClusterMixin, BaseEstimator):
@@ -135,7 +135,7 @@ class HDBSCAN(ClusterMixin, BaseEstimator):
         """
         min_size = _options.whole("min_cluster_size", self.min_cluster_size, 2)
         _options.choice("store_centers", self.store_centers, [None, "centroid", "medoid", "both"])
-        is_precomputed = isinstance(self.metric, str) and self.metric == "precomputed"
+        is_precomputed = self._is_precomputed()
         data = table_of(self, X, reset=True, are_finite=False, may_be_sparse=is_precomputed)
         if is_precomputed:
             self._marks = _check_distances(data)
@@ -177,10 +177,11 @@ class HDBSCAN(ClusterMixin, BaseEstimator):
         return of_forest(births_of_all, tree.values / alpha, kept[tree.edges], min_size, "inverse")
 
     def _metric(self) -> Any:
-        if callable(self.metric):
-            return self.metric
         return _METRICS.get(self.metric, self.metric) if isinstance(self.metric, str) \
             else self.metric
+
+    def _is_precomputed(self) -> bool:
+        return isinstance(self.metric, str) and self.metric == "precomputed"
 
     def _selection(self) -> dict[str, Any]:
         return {"method": self.cluster_selection_method, "epsilon": self.cluster_selection_epsilon,
@@ -195,7 +196,7 @@ class HDBSCAN(ClusterMixin, BaseEstimator):
     def _centres_of(self, data: Any) -> None:
         if self.store_centers is None:
             return
-        if scipy.sparse.issparse(data) or self._metric() == "precomputed":
+        if self._is_precomputed():
             raise UsageError("store_centers: found a matrix of distances, expected points")
         members = [np.flatnonzero(self.labels_ == c) for c in range(len(self._chosen))]
         weights = [self.probabilities_[rows] for rows in members]
@@ -235,21 +236,9 @@ class HDBSCAN(ClusterMixin, BaseEstimator):
         clusters = tree.clusters
         is_leaf = np.ones(len(clusters), dtype=bool)
         is_leaf[clusters["parent"][clusters["parent"] >= 0]] = False
-        label = self._label_of_clusters()
         own = tree.cluster_of
-        is_last = is_leaf[own] & (tree.leaves_at == clusters["bottom"][own]) & (self.labels_ >= 0)
-        return [np.flatnonzero(is_last & (label[own] == c)) for c in range(len(self._chosen))]
-
-    def _label_of_clusters(self) -> _Integers:
-        """For each cluster of the tree, the label of the chosen cluster at or around it; -1 if there
-        is none."""
-        parents = self.cluster_tree_.clusters["parent"]
-        label = np.full(len(parents), -1)
-        label[self._chosen] = np.arange(len(self._chosen))
-        for c in range(len(parents) - 2, -1, -1):  # parents come after their children
-            if label[c] < 0:
-                label[c] = label[parents[c]]
-        return label
+        is_last = is_leaf[own] & (tree.leaves_at == clusters["bottom"][own])
+        return [np.flatnonzero(is_last & (self.labels_ == c)) for c in range(len(self._chosen))]
 
     @property
     def merge_tree_(self) -> MergeTree:
@@ -319,30 +308,14 @@ allow_single_cluster, max_cluster_size
         """Labels and probabilities of new rows."""
         check_is_fitted(self)
         data = table_of(self, X, reset=False, are_finite=False)
-        is_precomputed = self._metric() == "precomputed"
-        marks = np.zeros(len(data), dtype=np.int64) if is_precomputed else _marks_of(data)
+        marks = np.zeros(len(data), dtype=np.int64) if self._is_precomputed() else _marks_of(data)
         tree = self.cluster_tree_
         joined, values = np.full(len(data), -1), np.full(len(data), np.inf)
         kept = marks == 0
         joined[kept], values[kept] = self._attachments(data[kept])
-        clusters, has_point = tree.clusters, joined >= 0
-        cluster = np.where(has_point, tree.cluster_of[joined], len(clusters) - 1)
-        leaves_at = np.where(has_point, np.maximum(tree.leaves_at[joined], values), np.inf)
-        while True:
-            parent = clusters["parent"][cluster]
-            is_past = (clusters["top"][cluster] <= values) & (parent >= 0)
-            if not is_past.any():
-                break
-            cluster = np.where(is_past, parent, cluster)
-        label = self._label_of_clusters()[cluster]
-        if len(clusters) - 1 in self._chosen:  # the root has noise
-            limit = self.cluster_selection_epsilon or clusters["bottom"][-1]
-            label[(cluster == len(clusters) - 1) & (leaves_at > limit)] = -1
-        bottom = clusters["bottom"][self._chosen][label] if len(self._chosen) else values
-        with np.errstate(invalid="ignore"):
-            share = np.where(leaves_at <= bottom, 1.0, bottom / leaves_at)
-        return (np.where(marks < 0, marks, label),
-                np.where(marks == MISSING, np.nan, np.where(label < 0, 0.0, share)))
+        found = tree._locate(joined, values, **self._selection())
+        return (np.where(marks < 0, marks, found.labels),
+                np.where(marks == MISSING, np.nan, found.probabilities))
 
     def _attachments(self, data: _Numbers) -> tuple[_Integers, _Numbers]:
         """For each new row, the fitted row that it reaches first, and the value at which it does."""
@@ -394,13 +367,12 @@ allow_single_cluster, max_cluster_size
         return np.where(self._marks < 0, self._marks, labels)
 
     def _more_tags(self) -> dict[str, Any]:
-        return {"allow_nan": self.metric != "precomputed", "pairwise": self.metric == "precomputed"}
+        return {"allow_nan": not self._is_precomputed(), "pairwise": self._is_precomputed()}
 
     def __sklearn_tags__(self) -> Any:
         tags = super().__sklearn_tags__()
-        tags.input_tags.allow_nan = self.metric != "precomputed"
-        tags.input_tags.pairwise = self.metric == "precomputed"
-        tags.input_tags.sparse = self.metric == "precomputed"
+        tags.input_tags.allow_nan = not self._is_precomputed()
+        tags.input_tags.pairwise = tags.input_tags.sparse = self._is_precomputed()
         return tags
 
 
