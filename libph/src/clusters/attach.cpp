@@ -49,8 +49,7 @@ class JointPoints {
   void for_each_added(std::size_t count, std::span<const double> births, std::string_view stage,
                       const std::function<void(Index, std::span<const Neighbour>)>& use,
                       const RunContext& context) const {
-    if (first_ == 0 || added() == 0 || all_.cols() == 0 ||
-        !has_fast_spanning_forest(all_, distance_))
+    if (first_ == 0 || added() == 0 || all_.cols() == 0 || !has_fast_spanning_forest(distance_))
       compare_all(count, births, stage, use, context);
     else
       search_tree(count, births, stage, use, context);
@@ -67,21 +66,29 @@ class JointPoints {
     std::optional<PointBirths> of_tree;
     if (!births.empty()) of_tree.emplace(tree, births, context);
     const auto search =
-        NeighbourSearch::make(tree, metric, distance_, p_, of_tree ? &*of_tree : nullptr);
+        NeighbourSearch::make(tree, metric, distance_, p_, of_tree ? &*of_tree : nullptr, context);
     // The added points are one part, so that only points of the hierarchy are found.
     std::pmr::vector<std::uint32_t> of_point(tree.size(), &context.memory),
         of_node(tree.node_count(), &context.memory);
     for (std::size_t q = 0; q < tree.size(); ++q) of_point[q] = tree.rows()[q] >= first_;
     NeighbourSearch::Parts::find_nodes(tree, of_point, of_node);
-    for_each_piece(stage, tree.size(), 1 << 10, context, [&](std::size_t begin, std::size_t end) {
-      std::vector<Neighbour> found(count);
-      for (std::size_t q = begin; q < end; ++q) {
-        if (of_point[q] == 0) continue;
-        search->nearest_foreign(static_cast<KdTree::Position>(q), {of_point, of_node}, kInfinity,
-                                NeighbourSearch::Ties::by_row, found);
-        for (Neighbour& n : found)
-          if (n.position != NeighbourSearch::kNone) n.position = tree.rows()[n.position];
-        use(Index{tree.rows()[q]} - first_, found);
+    const NeighbourSearch::Parts parts{of_point, of_node};
+    for_each_piece(stage, tree.first_leaf(), 128, context, [&](std::size_t begin, std::size_t end) {
+      std::vector<Neighbour> found(KdTree::kLeafSize * count);
+      NeighbourSearch::Query query{.k = count, .parts = &parts};
+      for (std::size_t i = begin; i < end; ++i) {
+        query.leaf = tree.first_leaf() + static_cast<KdTree::Node>(i);
+        const KdTree::Position first = tree.begin(query.leaf), last = tree.end(query.leaf);
+        for (KdTree::Position q = first; q < last; ++q)
+          query.limits[q - first] = of_point[q] == 0 ? -1 : kInfinity;
+        search->nearest(query, found);
+        for (KdTree::Position q = first; q < last; ++q) {
+          if (of_point[q] == 0) continue;
+          const std::span<Neighbour> of_q = std::span(found).subspan((q - first) * count, count);
+          for (Neighbour& n : of_q)
+            if (n.position != NeighbourSearch::kNone) n.position = tree.rows()[n.position];
+          use(Index{tree.rows()[q]} - first_, of_q);
+        }
       }
     });
   }

@@ -51,8 +51,7 @@ void for_each_nearest(PointsView points, Index k, PointDistance distance, double
   // A list of neighbours is kept sorted while it grows. If the lists are longer than this,
   // computing all distances is faster.
   constexpr Index most_neighbours = 512;
-  if (k == 0 || k > most_neighbours || points.cols() == 0 ||
-      !has_fast_spanning_forest(points, distance)) {
+  if (k == 0 || k > most_neighbours || points.cols() == 0 || !has_fast_spanning_forest(distance)) {
     constexpr Index longest_list = 64;  // insertions into longer lists cost more than they save
     if (0 < k && k <= longest_list)
       compare_rows(checked, k, stage, use, context);
@@ -64,15 +63,16 @@ void for_each_nearest(PointsView points, Index k, PointDistance distance, double
   std::iota(rows.begin(), rows.end(), 0U);
   const KdTree tree(points, rows, context);
   const PointMetric metric(tree.points(), distance, p);
-  const auto search = NeighbourSearch::make(tree, metric, distance, p);
+  const auto search = NeighbourSearch::make(tree, metric, distance, p, nullptr, context);
   const auto count = static_cast<std::size_t>(k);
   const auto find = [&](std::size_t begin, std::size_t end) {
     std::vector<NeighbourSearch::Neighbour> found(KdTree::kLeafSize * count);
     std::vector<double> distances(count);
     for (std::size_t i = begin; i < end; ++i) {
       const auto leaf = static_cast<KdTree::Node>(tree.first_leaf() + i);
-      search->nearest(leaf, count, std::numeric_limits<double>::infinity(),
-                      NeighbourSearch::Ties::any, found);
+      NeighbourSearch::Query query{.leaf = leaf, .k = count, .ties = NeighbourSearch::Ties::any};
+      query.limits.fill(std::numeric_limits<double>::infinity());
+      search->nearest(query, found);
       for (KdTree::Position q = tree.begin(leaf); q < tree.end(leaf); ++q) {
         const auto* const list = &found[(q - tree.begin(leaf)) * count];
         for (std::size_t j = 0; j < count; ++j) distances[j] = list[j].distance;

@@ -5,118 +5,58 @@
 #include <array>
 #include <cmath>
 
+#include "libph/src/metric/leaf_gaps.hpp"
 #include "libph/src/metric/plain_squares.hpp"
+#include "ph/detail/core/parallel.hpp"
 
 namespace ph {
 namespace {
 
-// A Gaps type computes a norm from the gaps between two boxes on each axis. The norm is cheap to
-// compute, and it is never larger than the distance that the search uses. Because the norm and the
-// distance are rounded, the function `reach` allows for the errors of sums. No point within the
-// distance is therefore missed.
+// The factor that allows for rounding in Gaps::reach.
 // mutant: search-slack
 double slack(Index axes) { return 1 + 4e-16 * static_cast<double>(axes + 8); }
 
-struct EuclideanGaps {
-  // Smaller sums of squares may have lost digits to underflow.
-  static constexpr double kSmallestPlainSquare = 1e-280;
-  static double add(double sum, double gap) { return sum + gap * gap; }
-  /// The largest sum that can belong to a distance <= d. @param slack a factor that allows for
-  /// rounding.
-  static double reach(double d, double slack) {
-    return std::max(d * d * slack, kSmallestPlainSquare);
-  }
-};
-struct ManhattanGaps {
-  static double add(double sum, double gap) { return sum + std::abs(gap); }
-  static double reach(double d, double slack) { return d * slack; }
-};
-struct ChebyshevGaps {
-  static double add(double sum, double gap) { return std::max(sum, std::abs(gap)); }
-  static double reach(double d, double slack) { return d * slack; }
-};
-
-/// The gaps for Euclidean distances whose squares underflow. Searches reach at least 1e-160,
-/// because PointMetric computes the distance 0 for points whose squared differences underflow to 0.
-struct TinyGaps : ChebyshevGaps {
-  static double reach(double d, double slack) { return std::max(d * slack, 1e-160); }
-};
-
-/// @tparam Axes the number of coordinates; 0 for any number.
-template <class Gaps, int Axes, bool kHasBirths>
+template <class Gaps, bool kHasBirths>
 class Search final : public NeighbourSearch {
  public:
   /// @param is_root_of_sum true if the distance is the square root of the sum of squares.
   Search(const KdTree& tree, const PointMetric& metric, bool is_root_of_sum,
-         const PointBirths* births)
+         const PointBirths* births, const RunContext& context)
       : tree_(tree),
         metric_(metric),
-        axes_(tree.points().cols()),
-        slack_(slack(axes_)),
+        gaps_(tree, context),
+        slack_(slack(tree.points().cols())),
         is_root_of_sum_(is_root_of_sum),
         births_(births) {}
 
-  void nearest(Node leaf, std::size_t k, double limit, Ties ties,
-               std::span<Neighbour> found) const override {
-    const Position begin = tree_.begin(leaf), end = tree_.end(leaf);
-    std::array<double, KdTree::kLeafSize> reach;
-    reach.fill(Gaps::reach(limit, slack_));
-    double farthest = reach[0], farthest_distance = limit;
-    const double* const box = tree_.box(leaf);
-    std::fill(found.begin(), found.end(), Neighbour{limit, kNone});
-    const auto visit_leaf = [&](Node other) {
-      const Position first = tree_.begin(other), last = tree_.end(other);
-      for (Position p = begin; p < end; ++p) {
-        double& reach_of_p = reach[p - begin];
-        if (other != leaf && gap_to_box(p, other) > reach_of_p) continue;
-        const std::span<Neighbour> list = found.subspan((p - begin) * k, k);
-        if (enters_too_late(other, p, list.back())) continue;
-        for (Position q = first; q < last; ++q) {
-          const double sum = gap_to_point(p, q);
-          if (sum > reach_of_p || p == q) continue;
-          insert({distance(p, q, sum), q}, list);
-          reach_of_p = reach_beside(list.back(), ties);
-        }
-      }
-      farthest = *std::max_element(reach.begin(), reach.begin() + (end - begin));
-      if constexpr (kHasBirths) {
-        farthest_distance = 0;
-        for (std::size_t i = k - 1; i < k * (end - begin); i += k)
-          farthest_distance = std::max(farthest_distance, found[i].distance);
-      }
-    };
-    const auto is_hopeless = [&](Node node, double gap) {
-      if constexpr (kHasBirths)
-        if (births_->least_birth(node) > farthest_distance) return true;
-      return gap > farthest || node == leaf;
-    };
-    visit_leaf(leaf);
-    traverse([&](Node node) { return gap_of_boxes(box, tree_.box(node)); }, is_hopeless,
-             visit_leaf);
+  void nearest(const Query& query, std::span<Neighbour> found) const override {
+    Asking asking(*this, query, found);
+    if (asking.is_nobody()) return;
+    if (!asking.is_done_with(query.leaf)) asking.compare_with(query.leaf);
+    traverse([&](Node node) { return gaps_.of_boxes(asking.box(), tree_.box(node)); },
+             [&](Node node, double gap) {
+               return node == query.leaf || gap > asking.farthest() || asking.is_done_with(node);
+             },
+             [&](Node leaf) { asking.compare_with(leaf); });
   }
 
-  using NeighbourSearch::nearest_foreign;
-  void nearest_foreign(Position p, const Parts& parts, double limit, Ties ties,
-                       std::span<Neighbour> found) const override {
-    const std::uint32_t own = parts.of_point[p];
-    std::fill(found.begin(), found.end(), Neighbour{limit, kNone});
-    double reach = Gaps::reach(limit, slack_);
-    const auto visit_leaf = [&](Node leaf) {
-      for (Position q = tree_.begin(leaf); q < tree_.end(leaf); ++q) {
-        const double sum = gap_to_point(p, q);
-        if (sum > reach || parts.of_point[q] == own) continue;
-        insert({distance(p, q, sum), q}, found);
-        reach = reach_beside(found.back(), ties);
-      }
-    };
-    const auto is_hopeless = [&](Node node, double gap) {
-      return gap > reach || parts.of_node[node] == own || enters_too_late(node, p, found.back());
-    };
-    traverse([&](Node node) { return gap_to_box(p, node); }, is_hopeless, visit_leaf);
+  void first_between_parts(const Parts& parts, FirstEdges& first,
+                           const RunContext& context) const override {
+    // Pairs of subtrees, of which each is compared on one thread.
+    const Node roots = std::min<Node>(tree_.first_leaf(), 1 << 5);
+    for_each_piece("nearest parts", std::size_t{roots} * roots, 1, context,
+                   [&](std::size_t i, std::size_t) {
+                     const auto a = static_cast<Node>(roots + i / roots),
+                                b = static_cast<Node>(roots + i % roots);
+                     if (a <= b) compare_parts(a, b, {parts, first});
+                   });
   }
 
   double distance(Position p, Position q) const override {
-    return distance(p, q, gap_to_point(p, q));
+    const double *x = tree_.points().row(Index{p}), *y = tree_.points().row(Index{q});
+    double norm = 0;
+    for (Index k = 0; k < tree_.points().cols(); ++k) Gaps::add(norm, x[k] - y[k]);
+    return distance(p, q, norm);
   }
 
   void pairs_within(double limit, const VisitPair& visit,
@@ -126,6 +66,149 @@ class Search final : public NeighbourSearch {
   }
 
  private:
+  using Tile = typename LeafGaps<Gaps>::Tile;
+  static constexpr double kNothing = -1;  // no gap is so small
+
+  /// The points of a leaf that look for neighbours.
+  class Asking {
+   public:
+    Asking(const Search& search, const Query& query, std::span<Neighbour> found)
+        : search_(search),
+          query_(query),
+          found_(found),
+          begin_(search.tree_.begin(query.leaf)),
+          end_(search.tree_.end(query.leaf)),
+          box_(search.tree_.box(query.leaf)) {
+      reach_.fill(kNothing);
+      std::size_t count = 0;
+      for (Position p = begin_; p < end_; ++p) {
+        const double limit = query.limits[p - begin_];
+        std::ranges::fill(list_of(p), Neighbour{limit, kNone});
+        if (!(limit >= 0)) continue;
+        reach_[p - begin_] = Gaps::reach(limit, search.slack_);
+        if (query.parts) {
+          const std::uint32_t own = query.parts->of_point[p];
+          own_ = count == 0 || own == own_ ? own : Parts::kMixed;
+        }
+        ++count;
+      }
+      find_farthest();
+      if (0 < count && count < end_ - begin_) find_box();
+    }
+    bool is_nobody() const { return farthest_ == kNothing; }
+    const double* box() const { return box_; }
+    /// No point looks for neighbours with a larger norm.
+    double farthest() const { return farthest_; }
+    /// True if no point of a node is wanted.
+    bool is_done_with(Node node) const {
+      if constexpr (kHasBirths)
+        if (search_.births_->least_birth(node) > farthest_distance_) return true;
+      return query_.parts && own_ != Parts::kMixed && query_.parts->of_node[node] == own_;
+    }
+    void compare_with(Node leaf) {
+      const Position first = search_.tree_.begin(leaf), last = search_.tree_.end(leaf);
+      Tile norms;
+      search_.gaps_.of_leaves(query_.leaf, leaf, norms);
+      for (Position p = begin_; p < end_; ++p) {
+        double& reach = reach_[p - begin_];
+        const std::span<Neighbour> list = list_of(p);
+        if (reach < 0 || search_.enters_too_late(leaf, p, list.back())) continue;
+        const double* const row = &norms[(p - begin_) * KdTree::kLeafSize];
+        for (Position q = first; q < last; ++q) {
+          const double norm = row[q - first];
+          if (norm > reach || !is_wanted(p, q)) continue;
+          search_.insert({search_.distance(p, q, norm), q}, list);
+          reach = search_.reach_beside(list.back(), query_.ties);
+        }
+      }
+      find_farthest();
+    }
+
+   private:
+    std::span<Neighbour> list_of(Position p) const {
+      return found_.subspan((p - begin_) * query_.k, query_.k);
+    }
+    bool is_wanted(Position p, Position q) const {
+      const Parts* const parts = query_.parts;
+      return p != q && !(parts && parts->of_point[p] == parts->of_point[q]);
+    }
+    void find_farthest() {
+      farthest_ = std::ranges::max(reach_);
+      if constexpr (kHasBirths) {
+        farthest_distance_ = 0;
+        for (Position p = begin_; p < end_; ++p)
+          farthest_distance_ = std::max(farthest_distance_, list_of(p).back().distance);
+      }
+    }
+    /// Finds the box of the points that ask, if some do not.
+    void find_box() {
+      const PointsView points = search_.tree_.points();
+      for (Position p = begin_; p < end_; ++p) {
+        if (reach_[p - begin_] < 0) continue;
+        const double* const x = points.row(Index{p});
+        const bool is_first = of_some_.empty();
+        of_some_.resize(2 * static_cast<std::size_t>(points.cols()));
+        for (std::size_t k = 0; k < of_some_.size(); ++k) {
+          double& bound = of_some_[k];
+          bound = is_first     ? x[k / 2]
+                  : k % 2 == 0 ? std::min(bound, x[k / 2])
+                               : std::max(bound, x[k / 2]);
+        }
+      }
+      box_ = of_some_.data();
+    }
+
+    const Search& search_;
+    const Query& query_;
+    const std::span<Neighbour> found_;
+    const Position begin_, end_;
+    std::array<double, KdTree::kLeafSize> reach_;  // by point: no larger norm is wanted
+    double farthest_ = kNothing, farthest_distance_ = 0;
+    std::uint32_t own_ = Parts::kMixed;  // the part of all points that ask
+    const double* box_;
+    std::vector<double> of_some_;
+  };
+
+  struct PartsToJoin {
+    const Parts& parts;
+    FirstEdges& first;
+  };
+  /// Compares the points of `a` with the points of `b`, which does not come before `a`. The nodes
+  /// must be on the same level.
+  void compare_parts(Node a, Node b, const PartsToJoin& join) const {
+    const std::uint32_t of_a = join.parts.of_node[a], of_b = join.parts.of_node[b];
+    if (of_a != Parts::kMixed && of_b != Parts::kMixed) {
+      if (of_a == of_b) return;
+      const double within = join.first.value(of_a, of_b);
+      if (gaps_.of_boxes(tree_.box(a), tree_.box(b)) > Gaps::reach(within, slack_)) return;
+      if constexpr (kHasBirths)
+        if (std::max(births_->least_birth(a), births_->least_birth(b)) > within) return;
+    }
+    if (tree_.is_leaf(a)) {
+      compare_parts_of_leaves(a, b, join);
+      return;
+    }
+    compare_parts(2 * a, 2 * b, join);
+    compare_parts(2 * a, 2 * b + 1, join);
+    if (a != b) compare_parts(2 * a + 1, 2 * b, join);
+    compare_parts(2 * a + 1, 2 * b + 1, join);
+  }
+  void compare_parts_of_leaves(Node a, Node b, const PartsToJoin& join) const {
+    Tile norms;
+    gaps_.of_leaves(a, b, norms);
+    for (Position p = tree_.begin(a); p < tree_.end(a); ++p) {
+      const std::uint32_t own = join.parts.of_point[p];
+      for (Position q = tree_.begin(b); q < tree_.end(b); ++q) {
+        const std::uint32_t other = join.parts.of_point[q];
+        if (own == other) continue;
+        const double norm = norms[(p - tree_.begin(a)) * KdTree::kLeafSize + q - tree_.begin(b)];
+        if (norm > Gaps::reach(join.first.value(own, other), slack_)) continue;
+        const auto [v, u] = std::minmax(tree_.rows()[p], tree_.rows()[q]);
+        join.first.offer(own, other, {distance(p, q, norm), u, v});
+      }
+    }
+  }
+
   struct Pairs {
     double limit, reach;
     const VisitPair& visit;
@@ -134,7 +217,7 @@ class Search final : public NeighbourSearch {
   /// Visits each pair of a point in `a` and a point in `b`. The nodes must be on the same level,
   /// and `b` must not come before `a`.
   void visit_pairs(Node a, Node b, const Pairs& pairs) const {
-    if (a != b && gap_of_boxes(tree_.box(a), tree_.box(b)) > pairs.reach) return;
+    if (a != b && gaps_.of_boxes(tree_.box(a), tree_.box(b)) > pairs.reach) return;
     if (tree_.is_leaf(a)) {
       visit_pairs_of_leaves(a, b, pairs);
       return;
@@ -146,11 +229,13 @@ class Search final : public NeighbourSearch {
   }
   void visit_pairs_of_leaves(Node a, Node b, const Pairs& pairs) const {
     const Position last = tree_.end(b);
+    Tile norms;
+    gaps_.of_leaves(a, b, norms);
     for (Position p = tree_.begin(a); p < tree_.end(a); ++p) {
       for (Position q = a == b ? p + 1 : tree_.begin(b); q < last; ++q) {
-        const double sum = gap_to_point(p, q);
-        if (sum > pairs.reach) continue;
-        const double d = distance(p, q, sum);
+        const double norm = norms[(p - tree_.begin(a)) * KdTree::kLeafSize + q - tree_.begin(b)];
+        if (norm > pairs.reach) continue;
+        const double d = distance(p, q, norm);
         if (d > pairs.limit) continue;  // mutant: search-radius
         const auto [i, j] = std::minmax(tree_.rows()[p], tree_.rows()[q]);
         pairs.visit(Index{i}, Index{j}, d);
@@ -161,40 +246,16 @@ class Search final : public NeighbourSearch {
     else
       pairs.ticker.work(KdTree::kLeafSize);
   }
-  Index axes() const {
-    if constexpr (Axes > 0) return Axes;
-    return axes_;
-  }
-  const double* coordinates(Position p) const { return tree_.points().row(Index{p}); }
-  double gap_to_point(Position p, Position q) const {
-    const double *x = coordinates(p), *y = coordinates(q);
-    double sum = 0;
-    for (Index k = 0; k < axes(); ++k) sum = Gaps::add(sum, x[k] - y[k]);
-    return sum;
-  }
-  double gap_to_box(Position p, Node node) const {
-    const double *x = coordinates(p), *box = tree_.box(node);
-    double sum = 0;
-    for (Index k = 0; k < axes(); ++k)
-      sum = Gaps::add(sum, std::max({box[2 * k] - x[k], x[k] - box[2 * k + 1], 0.0}));
-    return sum;
-  }
-  double gap_of_boxes(const double* a, const double* b) const {
-    double sum = 0;
-    for (Index k = 0; k < axes(); ++k)
-      sum = Gaps::add(sum, std::max({a[2 * k] - b[2 * k + 1], b[2 * k] - a[2 * k + 1], 0.0}));
-    return sum;
-  }
-  /// @param sum the result of gap_to_point(p, q), which equals the sum that the metric computes
-  /// unless digits were lost.
-  double distance(Position p, Position q, double sum) const {
-    const double length = length_of(p, q, sum);
+  /// @param norm of the gaps between two points. A sum of squares equals the sum that the metric
+  /// computes unless digits were lost.
+  double distance(Position p, Position q, double norm) const {
+    const double length = length_of(p, q, norm);
     if constexpr (kHasBirths) return std::max({length, births_->of_point(p), births_->of_point(q)});
     return length;
   }
-  double length_of(Position p, Position q, double sum) const {
+  double length_of(Position p, Position q, double norm) const {
     if constexpr (std::same_as<Gaps, EuclideanGaps>)
-      if (is_root_of_sum_ && sum >= Gaps::kSmallestPlainSquare) return std::sqrt(sum);
+      if (is_root_of_sum_ && norm >= Gaps::kSmallestPlainSquare) return std::sqrt(norm);
     return metric_(p, q);
   }
   /// True if no point of a node can replace the worst neighbour of p, because the births of the
@@ -210,10 +271,9 @@ class Search final : public NeighbourSearch {
     }
     return false;
   }
-  /// The largest sum with which a point may still replace the worst neighbour.
+  /// The largest norm with which a point may still replace the worst neighbour.
   double reach_beside(const Neighbour& worst, Ties ties) const {
-    constexpr double nothing = -1;
-    if (ties == Ties::any && worst.distance == 0) return nothing;  // mutant: search-any-tie
+    if (ties == Ties::any && worst.distance == 0) return kNothing;  // mutant: search-any-tie
     return Gaps::reach(worst.distance, slack_);
   }
   bool is_nearer(const Neighbour& a, const Neighbour& b) const {
@@ -259,7 +319,7 @@ class Search final : public NeighbourSearch {
 
   const KdTree& tree_;
   const PointMetric& metric_;
-  const Index axes_;
+  const LeafGaps<Gaps> gaps_;
   const double slack_;
   const bool is_root_of_sum_;
   const PointBirths* const births_;  // null if kHasBirths is false
@@ -276,25 +336,6 @@ bool has_tiny_node(const KdTree& tree) {
     if (0 < width && width < tiny) return true;
   }
   return false;
-}
-
-template <class Gaps>
-std::unique_ptr<NeighbourSearch> make_search(const KdTree& tree, const PointMetric& metric,
-                                             bool is_root_of_sum, const PointBirths* births) {
-  const auto make =
-      [&]<int Axes>(std::integral_constant<int, Axes>) -> std::unique_ptr<NeighbourSearch> {
-    if (births)
-      return std::make_unique<Search<Gaps, Axes, true>>(tree, metric, is_root_of_sum, births);
-    return std::make_unique<Search<Gaps, Axes, false>>(tree, metric, is_root_of_sum, births);
-  };
-  switch (tree.points().cols()) {
-    case 2:
-      return make(std::integral_constant<int, 2>());
-    case 3:
-      return make(std::integral_constant<int, 3>());
-    default:
-      return make(std::integral_constant<int, 0>());
-  }
 }
 
 }  // namespace
@@ -331,22 +372,43 @@ void NeighbourSearch::Parts::find_nodes(const KdTree& tree, std::span<const std:
   }
 }
 
+NeighbourSearch::FirstEdges::FirstEdges(std::size_t parts, double limit, const RunContext& context)
+    : parts_(parts),
+      edges_(parts * parts, FlagEdge{limit, kNone, kNone}, &context.memory),
+      values_(parts * parts, &context.memory) {
+  for (auto& value : values_) value.store(limit, std::memory_order_relaxed);
+}
+
+void NeighbourSearch::FirstEdges::offer(std::uint32_t a, std::uint32_t b, const FlagEdge& edge) {
+  const std::lock_guard lock(mutex_);
+  FlagEdge& first = edges_[place(a, b)];
+  if (!precedes(edge, first)) return;  // mutant: first-edges
+  first = edge;
+  values_[place(a, b)].store(edge.value, std::memory_order_relaxed);
+}
+
 std::unique_ptr<NeighbourSearch> NeighbourSearch::make(const KdTree& tree,
                                                        const PointMetric& metric,
                                                        PointDistance distance, double p,
-                                                       const PointBirths* births) {
+                                                       const PointBirths* births,
+                                                       const RunContext& context) {
   // p-norms decrease as p grows. For p below 2, the Euclidean norm is therefore a lower bound. The
   // maximum norm is a lower bound for every p, and needs no squares.
   const double largest = largest_coordinate(tree.points());
   const bool is_euclidean = distance == PointDistance::euclidean;
   const bool are_squares_plain = kSmallestPlain < largest && largest < kLargestPlain;
-  if (distance == PointDistance::manhattan)
-    return make_search<ManhattanGaps>(tree, metric, false, births);
-  if (is_euclidean && are_squares_plain && has_tiny_node(tree))
-    return make_search<TinyGaps>(tree, metric, false, births);
+  const auto search = [&]<class Gaps>(Gaps, bool is_root_of_sum) {
+    const auto make = [&]<bool kHasBirths>(std::bool_constant<kHasBirths>) {
+      return std::unique_ptr<NeighbourSearch>(std::make_unique<Search<Gaps, kHasBirths>>(
+          tree, metric, is_root_of_sum, births, context));
+    };
+    return births ? make(std::true_type()) : make(std::false_type());
+  };
+  if (distance == PointDistance::manhattan) return search(ManhattanGaps(), false);
+  if (is_euclidean && are_squares_plain && has_tiny_node(tree)) return search(TinyGaps(), false);
   if (are_squares_plain && (is_euclidean || (distance == PointDistance::minkowski && p <= 2)))
-    return make_search<EuclideanGaps>(tree, metric, metric.is_plain_euclidean(), births);
-  return make_search<ChebyshevGaps>(tree, metric, false, births);
+    return search(EuclideanGaps(), metric.is_plain_euclidean());
+  return search(ChebyshevGaps(), false);
 }
 
 }  // namespace ph

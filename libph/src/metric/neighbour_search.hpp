@@ -1,14 +1,19 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <limits>
 #include <memory>
 #include <memory_resource>
+#include <mutex>
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "ph/detail/core/flag_filtration.hpp"
 #include "ph/detail/metric/kd_tree.hpp"
 #include "ph/detail/metric/metric.hpp"
 
@@ -75,21 +80,49 @@ class NeighbourSearch {
   /// faster if many points are equal and therefore at distance 0.
   enum class Ties { by_row, any };
 
-  /// For each point of a leaf, finds its k nearest other points at distance <= limit, nearest
-  /// first.
-  /// @param found k entries per point, point by point; entries without a neighbour stay kNone.
-  virtual void nearest(Node leaf, std::size_t k, double limit, Ties ties,
-                       std::span<Neighbour> found) const = 0;
-  /// The nearest point of another part at distance <= limit, or kNone.
-  Neighbour nearest_foreign(Position p, const Parts& parts, double limit, Ties ties) const {
-    Neighbour found;
-    nearest_foreign(p, parts, limit, ties, {&found, 1});
-    return found;
-  }
-  /// The nearest points of other parts at distance <= limit, nearest first.
-  /// @param found at least one entry; entries without a neighbour stay kNone.
-  virtual void nearest_foreign(Position p, const Parts& parts, double limit, Ties ties,
-                               std::span<Neighbour> found) const = 0;
+  /// A request for the nearest points of the points of a leaf.
+  struct Query {
+    Node leaf = 0;
+    std::size_t k = 1;  ///< number of neighbours for each point
+    /// For each point of the leaf, the largest distance of a neighbour. A negative number: the
+    /// point asks for none.
+    std::array<double, KdTree::kLeafSize> limits = {};
+    Ties ties = Ties::by_row;
+    const Parts* parts = nullptr;  ///< if given, only points of other parts are neighbours
+  };
+  /// @param found k entries per point of the leaf, point by point, nearest first; entries without a
+  /// neighbour have kNone.
+  virtual void nearest(const Query& query, std::span<Neighbour> found) const = 0;
+
+  /// For each pair of parts, the first edge between them, in the order of the filtration. Several
+  /// threads may offer edges at once.
+  class FirstEdges {
+   public:
+    /// @param limit longer edges are not taken.
+    FirstEdges(std::size_t parts, double limit, const RunContext& context);
+    /// No edge with a larger value is needed.
+    double value(std::uint32_t a, std::uint32_t b) const {
+      return values_[place(a, b)].load(std::memory_order_relaxed);
+    }
+    void offer(std::uint32_t a, std::uint32_t b, const FlagEdge& edge);
+    std::optional<FlagEdge> edge(std::uint32_t a, std::uint32_t b) const {
+      const FlagEdge& first = edges_[place(a, b)];
+      return first.u == kNone ? std::nullopt : std::optional(first);
+    }
+
+   private:
+    std::size_t place(std::uint32_t a, std::uint32_t b) const {
+      return std::max(a, b) * parts_ + std::min(a, b);
+    }
+    std::size_t parts_;
+    std::pmr::vector<FlagEdge> edges_;
+    std::pmr::vector<std::atomic<double>> values_;
+    std::mutex mutex_;
+  };
+  /// Finds the first edge between each pair of parts, which are 0, 1, … O(n²) time, in which boxes
+  /// rule out pairs of nodes.
+  virtual void first_between_parts(const Parts& parts, FirstEdges& first,
+                                   const RunContext& context) const = 0;
   virtual double distance(Position p, Position q) const = 0;
   using VisitPair = std::function<void(Index, Index, double)>;
   /// Calls `visit(i, j, distance)` once for each pair of rows i < j at distance <= limit, in an
@@ -108,7 +141,8 @@ class NeighbourSearch {
   /// @param births null if the points have none; must outlive the search.
   static std::unique_ptr<NeighbourSearch> make(const KdTree& tree, const PointMetric& metric,
                                                PointDistance distance, double p,
-                                               const PointBirths* births = nullptr);
+                                               const PointBirths* births,
+                                               const RunContext& context);
 };
 
 }  // namespace ph

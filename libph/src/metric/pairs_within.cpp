@@ -77,7 +77,7 @@ void visit_by_tree(const PointMetric& metric, double radius, const Visit& visit,
   std::iota(rows.begin(), rows.end(), 0U);
   const KdTree tree(metric.points(), rows, context);
   const PointMetric of_tree(tree.points());
-  NeighbourSearch::make(tree, of_tree, PointDistance::euclidean, 2)
+  NeighbourSearch::make(tree, of_tree, PointDistance::euclidean, 2, nullptr, context)
       ->pairs_within(radius, visit, context);
 }
 

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "libph/src/metric/distinct_points.hpp"
+#include "libph/src/metric/known_neighbours.hpp"
 #include "libph/src/metric/neighbour_search.hpp"
 #include "ph/detail/components/disjoint_sets.hpp"
 #include "ph/detail/core/parallel.hpp"
@@ -13,25 +14,29 @@
 namespace ph {
 namespace {
 
+/// True if boxes rule out few points (measured).
+bool has_many_axes(PointsView points) { return points.cols() > 8; }
+
 // Runs Borůvka's algorithm. In each round, every component takes its first edge to another
 // component, in the order of the filtration. A point of another component is called foreign. Rounds
 // are cheap because the distance from a point to its nearest foreign point never decreases. Each
 // point stores a few nearest neighbours, which are found once. The first foreign point among them
 // is its nearest foreign point. If none of them is foreign, the last of them gives a lower bound.
 // The tree is searched only if this bound does not exceed the best edge that the component already
-// has.
+// has. If boxes rule out few points, all pairs of points of the last components are compared at
+// once instead.
 class Boruvka {
  public:
   /// @param search a search with these births; null if there are none.
   Boruvka(const KdTree& tree, const NeighbourSearch& search, const PointBirths* births,
-          double limit, const RunContext& context)
+          KnownNeighbours known, double limit, const RunContext& context)
       : tree_(tree),
         search_(search),
         births_(births),
         limit_(limit),
         context_(context),
         components_(tree.size()),
-        known_(tree.size() * kKnown, &context.memory),
+        known_(std::move(known)),
         points_(tree.size(), &context.memory),
         component_(tree.size(), &context.memory),
         node_component_(tree.node_count(), Parts::kMixed, &context.memory),
@@ -44,20 +49,24 @@ class Boruvka {
 
   /// Appends the edges of the forest. The ends of an edge are row numbers of points.
   void run(FlagEdges& forest) {
-    find_neighbours();
-    do {
+    take_first_neighbours();
+    while (true) {
       propose();
       ask();
-    } while (join(forest));
+      if (!join(forest)) return;
+      if (has_many_axes(tree_.points()) && components_ <= kFewComponents) return join_all(forest);
+    }
   }
 
  private:
+  static constexpr std::size_t kKnown = KnownNeighbours::kCount;
   using Parts = NeighbourSearch::Parts;
   using Neighbour = NeighbourSearch::Neighbour;
   using Position = NeighbourSearch::Position;
   static constexpr Position kNone = NeighbourSearch::kNone;
-  static constexpr std::size_t kKnown = 6;
   static constexpr std::size_t kPiece = 1 << 12;
+  // There is one edge for each pair of this many components.
+  static constexpr std::size_t kFewComponents = 512;
 
   enum class Knows : std::uint8_t {
     nearest,      // `first` is the nearest foreign point
@@ -83,21 +92,18 @@ class Boruvka {
     return of_p != of_q ? of_p < of_q : ph::precedes(edge_of(p), edge_of(q));
   }
 
-  void find_neighbours() {
-    const KdTree::Node first = tree_.first_leaf();
-    const auto find = [&](std::size_t begin, std::size_t end) {
-      std::array<Neighbour, KdTree::kLeafSize * kKnown> found;
-      for (auto leaf = static_cast<KdTree::Node>(first + begin); leaf < first + end; ++leaf) {
-        search_.nearest(leaf, kKnown, limit_, NeighbourSearch::Ties::by_row, found);
-        for (Position p = tree_.begin(leaf); p < tree_.end(leaf); ++p) {
-          const Neighbour* const list = &found[(p - tree_.begin(leaf)) * kKnown];
-          for (std::size_t i = 0; i < kKnown; ++i) known_[p * kKnown + i] = list[i].position;
-          points_[p].first = list[0];
-          if (list[0].position != kNone) points_[p].knows = Knows::nearest;
-        }
-      }
-    };
-    for_each_piece("neighbours", first, kPiece / KdTree::kLeafSize, context_, find);
+  void take_first_neighbours() {
+    for (Position p = 0; p < points_.size(); ++p) {
+      const Position q = known_.positions[p * kKnown];
+      if (q == kNone)
+        points_[p].first = {bound(p), kNone};
+      else
+        points_[p] = {{search_.distance(p, q), q}, 0, Knows::nearest};
+    }
+  }
+  /// The least value of an edge of p to a point that is not known.
+  double bound(Position p) const {
+    return known_.others_after.empty() ? limit_ : known_.others_after[p];
   }
 
   /// Finds each component's best edge among the edges that its points know.
@@ -117,9 +123,9 @@ class Boruvka {
     Position last = point.first.position;
     if (point.place < kKnown) ++point.place;
     for (; point.place < kKnown; ++point.place) {
-      const Position q = known_[p * kKnown + point.place];
-      if (q == kNone) {  // no further point is within the limit
-        point.first = {limit_, kNone};
+      const Position q = known_.positions[p * kKnown + point.place];
+      if (q == kNone) {
+        point.first = {bound(p), kNone};
         point.knows = Knows::lower_bound;
         return;
       }
@@ -154,22 +160,39 @@ class Boruvka {
     for (Position p = 0; p < points_.size(); ++p)
       if (is_worth_asking(p)) asking_.push_back(p);
     const auto ask_tree = [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) {
-        const Position p = asking_[i];
-        std::atomic<double>& reach = reach_[component_[p]];
-        double within = reach.load(std::memory_order_relaxed);
-        if (least_distance(p) > within) continue;
-        const Neighbour found = search_.nearest_foreign(p, {component_, node_component_}, within,
-                                                        NeighbourSearch::Ties::by_row);
-        const bool is_none = found.position == kNone;
-        points_[p] = {found, kKnown, is_none ? Knows::lower_bound : Knows::nearest};
-        while (found.distance < within &&
-               !reach.compare_exchange_weak(within, found.distance, std::memory_order_relaxed)) {
-        }
+      while (begin < end) {
+        const KdTree::Node leaf = tree_.leaf_of(asking_[begin]);
+        std::size_t next = begin + 1;
+        while (next < end && asking_[next] < tree_.end(leaf)) ++next;
+        ask_for(leaf, std::span(asking_).subspan(begin, next - begin));
+        begin = next;
       }
     };
     for_each_piece("spanning forest", asking_.size(), 256, context_, ask_tree);
     for (const Position p : asking_) offer(p);
+  }
+  /// Searches the tree for points of one leaf.
+  void ask_for(KdTree::Node leaf, std::span<const Position> points) {
+    const Parts parts{component_, node_component_};
+    NeighbourSearch::Query query{.leaf = leaf, .parts = &parts};
+    query.limits.fill(-1);
+    const auto reach_of = [&](Position p) -> std::atomic<double>& { return reach_[component_[p]]; };
+    for (const Position p : points) {
+      const double within = reach_of(p).load(std::memory_order_relaxed);
+      if (least_distance(p) <= within) query.limits[p - tree_.begin(leaf)] = within;
+    }
+    std::array<Neighbour, KdTree::kLeafSize> all;
+    search_.nearest(query, all);
+    for (const Position p : points) {
+      if (query.limits[p - tree_.begin(leaf)] < 0) continue;
+      const Neighbour& found = all[p - tree_.begin(leaf)];
+      const bool is_none = found.position == kNone;
+      points_[p] = {found, kKnown, is_none ? Knows::lower_bound : Knows::nearest};
+      double within = reach_of(p).load(std::memory_order_relaxed);
+      while (found.distance < within && !reach_of(p).compare_exchange_weak(
+                                            within, found.distance, std::memory_order_relaxed)) {
+      }
+    }
   }
   double birth(Position p) const { return births_ ? births_->of_point(p) : 0; }
   /// No foreign point is nearer to p.
@@ -203,13 +226,41 @@ class Boruvka {
     return true;
   }
 
+  /// Kruskal's algorithm with the first edge between each pair of components.
+  void join_all(FlagEdges& forest) {
+    std::pmr::vector<std::uint32_t> part(component_.size(), &context_.memory);
+    std::uint32_t parts = 0;
+    for (Position p = 0; p < part.size(); ++p)  // numbers the roots
+      if (component_[p] == p) part[p] = parts++;
+    const std::pmr::vector<std::uint32_t> of_root(part, &context_.memory);
+    for (Position p = 0; p < part.size(); ++p) part[p] = of_root[component_[p]];
+    Parts::find_nodes(tree_, part, node_component_);
+    NeighbourSearch::FirstEdges first(parts, limit_, context_);
+    search_.first_between_parts({part, node_component_}, first, context_);
+    struct Edge : FlagEdge {
+      std::uint32_t a, b;  // parts
+    };
+    std::pmr::vector<Edge> edges(&context_.memory);
+    for (std::uint32_t a = 0; a < parts; ++a)
+      for (std::uint32_t b = 0; b < a; ++b)
+        if (const std::optional<FlagEdge> edge = first.edge(a, b)) edges.push_back({*edge, a, b});
+    std::ranges::sort(edges, ph::precedes);
+    DisjointSets sets(parts, &context_.memory);
+    for (const Edge& e : edges) {
+      const std::uint32_t a = sets.find(e.a), b = sets.find(e.b);
+      if (a == b) continue;
+      sets.link(a, b);
+      forest.push_back(e);
+    }
+  }
+
   const KdTree& tree_;
   const NeighbourSearch& search_;
   const PointBirths* const births_;
   const double limit_;
   const RunContext& context_;
   std::size_t components_;
-  std::pmr::vector<Position> known_;  // kKnown neighbours of each point, nearest first
+  KnownNeighbours known_;
   std::pmr::vector<Point> points_;
   std::pmr::vector<std::uint32_t> component_;       // component of each position: a root of sets_
   std::pmr::vector<std::uint32_t> node_component_;  // component of each node of the tree
@@ -237,9 +288,8 @@ std::pmr::vector<std::uint32_t> first_copies(PointsView points, std::span<const 
 
 }  // namespace
 
-bool has_fast_spanning_forest(PointsView points, PointDistance distance) {
-  constexpr Index most_axes = 8;  // with more axes, boxes rule out few points (measured)
-  return points.cols() <= most_axes && NeighbourSearch::can_search(distance);
+bool has_fast_spanning_forest(PointDistance distance) {
+  return NeighbourSearch::can_search(distance);
 }
 
 FlagEdges spanning_forest(PointsView points, PointDistance distance, double p,
@@ -260,10 +310,38 @@ FlagEdges spanning_forest(PointsView points, PointDistance distance, double p,
     std::optional<PointBirths> of_tree;
     if (!births.empty()) of_tree.emplace(tree, births, context);
     const PointBirths* const born = of_tree ? &*of_tree : nullptr;
-    const auto search = NeighbourSearch::make(tree, metric, distance, p, born);
-    Boruvka(tree, *search, born, limit, context).run(forest);
+    const auto search = NeighbourSearch::make(tree, metric, distance, p, born, context);
+    Boruvka(tree, *search, born, known_neighbours(tree, *search, limit, context), limit, context)
+        .run(forest);
   }
   return forest;
+}
+
+ForestWithBirths core_forest(PointsView points, Index k, PointDistance distance, double p,
+                             double limit, const RunContext& context) {
+  const PointMetric checked(points, distance, p);
+  points = checked.points();  // now the rows are contiguous
+  ForestWithBirths result{FlagEdges(&context.memory),
+                          std::pmr::vector<double>(points.rows(), &context.memory)};
+  std::pmr::vector<std::uint32_t> rows(result.births.size(), &context.memory);
+  std::iota(rows.begin(), rows.end(), 0U);
+  std::optional<KdTree> tree(std::in_place, points, rows, context);
+  const PointMetric metric(tree->points(), distance, p);
+  std::optional<NearestLists> lists(
+      std::in_place, *tree, *NeighbourSearch::make(*tree, metric, distance, p, nullptr, context),
+      static_cast<std::size_t>(k), result.births, context);
+  if (std::ranges::min(result.births) == 0) {  // copies, which are joined at 0
+    lists.reset();
+    tree.reset();
+    result.edges = spanning_forest(points, distance, p, result.births, limit, context);
+    return result;
+  }
+  const PointBirths births(*tree, result.births, context);
+  const auto search = NeighbourSearch::make(*tree, metric, distance, p, &births, context);
+  KnownNeighbours known = lists->by_value(*search, limit, context);
+  lists.reset();
+  Boruvka(*tree, *search, &births, std::move(known), limit, context).run(result.edges);
+  return result;
 }
 
 }  // namespace ph

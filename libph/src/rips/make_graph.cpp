@@ -52,8 +52,7 @@ RipsGraph forest_of_points(PointsView points, const RipsOptions& options,
     return RipsGraph::forest_on_gpu(points, options.threshold, context);
   // Points without coordinates are copies, which a tree can hold only if they are merged.
   const bool has_fast_births = weights.exponent() == WeightExponent::infinity && points.cols() > 0;
-  if ((weights.births().empty() || has_fast_births) &&
-      has_fast_spanning_forest(points, options.distance))
+  if ((weights.births().empty() || has_fast_births) && has_fast_spanning_forest(options.distance))
     return RipsGraph::forest_of_points(points, options.distance, options.minkowski_p,
                                        weights.births(), options.threshold, context);
   return RipsGraph::forest_of_metric(PointMetric(points, options.distance, options.minkowski_p),
@@ -230,6 +229,21 @@ void check_options(const RipsData& data, const RipsOptions& options, const RunCo
   RipsVertices(size, options.vertices, births, exponent_of(options), options.threshold, context);
   if (const auto* points = std::get_if<HeldPoints>(&data))
     PointMetric(points->view, options.distance, options.minkowski_p);
+}
+
+std::optional<RipsGraph> core_forest(const RipsData& data, const RipsOptions& options,
+                                     const RunContext& context) {
+  constexpr Index most_neighbours = 16;  // all points keep their neighbours until the last search
+  const auto* points = std::get_if<HeldPoints>(&data);
+  const Index k = options.core_neighbours.value_or(0);
+  if (!points || k < 1 || k > most_neighbours || points->view.rows() == 0 ||
+      points->view.cols() == 0 || options.threshold.value_or(kInfinity) < kInfinity ||
+      !options.vertices.empty() || options.subsample || options.device == Device::gpu ||
+      exponent_of(options) != WeightExponent::infinity ||
+      !has_fast_spanning_forest(options.distance))
+    return std::nullopt;
+  return RipsGraph::core_forest_of_points(points->view, k, options.distance, options.minkowski_p,
+                                          context);
 }
 
 RipsGraph make_graph(const RipsData& data, const RipsOptions& options, RipsForm form,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <memory>
+#include <optional>
 #include <span>
 #include <variant>
 
@@ -40,6 +41,12 @@ void check_options(const RipsData& data, const RipsOptions& options, const RunCo
 /// @throws Error as Rips::graph does.
 RipsGraph make_graph(const RipsData& data, const RipsOptions& options, RipsForm form,
                      const ChosenVertices& chosen, const RunContext& context);
+
+/// Makes a spanning forest with core distances as births, which are found in the same search. Null
+/// if the data or the options need something else. Precondition: check_options has passed.
+/// @throws Error as Rips::graph does.
+std::optional<RipsGraph> core_forest(const RipsData& data, const RipsOptions& options,
+                                     const RunContext& context);
 
 /// Does the work of Rips::sample.
 RipsSample sample_of(const RipsData& data, const RipsOptions& options, const RunContext& context);

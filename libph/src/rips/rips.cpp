@@ -192,13 +192,20 @@ struct Rips::State {
     return chosen.get(call, [&] { return choose(data(), options, call); });
   }
   std::unique_ptr<const detail::MadeForm> make(RipsForm form, const RunContext& call) const {
+    auto made = std::make_unique<detail::MadeForm>(*context, call);
+    if (form == RipsForm::forest) {
+      if (std::optional<RipsGraph> forest = core_forest(data(), options, made->context)) {
+        made->graph = std::move(forest);
+        made->settle();
+        return made;
+      }
+    }
     ChosenVertices vertices{options.vertices, options.births};
     if (options.subsample) vertices.vertices = choice(call).vertices;
     if (options.computes_births()) vertices.births = choice(call).births;
     if (const auto* matrix = std::get_if<DistanceMatrix>(&data());
         matrix && vertices.births.empty())
       vertices.births = matrix->births();
-    auto made = std::make_unique<detail::MadeForm>(*context, call);
     if (form == RipsForm::points) made->input = input;
     made->graph.emplace(make_graph(data(), options, form, vertices, made->context));
     made->settle();

@@ -114,6 +114,14 @@ RipsGraph RipsGraph::forest_of_points(PointsView points, PointDistance distance,
                    spanning_forest(points, distance, p, births, limit, context), context, births);
 }
 
+RipsGraph RipsGraph::core_forest_of_points(PointsView points, Index neighbours,
+                                           PointDistance distance, double p,
+                                           const RunContext& context) {
+  check_arguments(points.rows(), std::nullopt);
+  ForestWithBirths found = core_forest(points, neighbours, distance, p, kNoLimit, context);
+  return of_forest(points.rows(), kNoLimit, std::move(found.edges), context, found.births);
+}
+
 RipsGraph RipsGraph::forest_on_gpu(PointsView points, std::optional<double> threshold,
                                    const RunContext& context) {
   check_arguments(points.rows(), threshold);

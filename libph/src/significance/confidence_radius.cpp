@@ -75,7 +75,8 @@ double confidence_radius(PointsView points, const ConfidenceOptions& options,
   std::iota(rows.begin(), rows.end(), 0U);
   const KdTree tree(checked.points(), rows, context);
   const PointMetric metric(tree.points(), PointDistance::euclidean, 2);
-  const auto search = NeighbourSearch::make(tree, metric, PointDistance::euclidean, 2);
+  const auto search =
+      NeighbourSearch::make(tree, metric, PointDistance::euclidean, 2, nullptr, context);
   const std::size_t size = options.size == 0 ? usual_size(n) : options.size;
 
   // The Hausdorff distance between each subsample and all points.
@@ -87,13 +88,19 @@ double confidence_radius(PointsView points, const ConfidenceOptions& options,
           Random random(options.seed, k);
           subsample.choose(size, random);
           double farthest = 0;
-          for (KdTree::Position p = 0; p < n; ++p) {
-            if (p % 1024 == 0 && context.stop.stop_requested()) return;
-            if (subsample.is_chosen(p)) continue;
-            const auto nearest = search->nearest_foreign(p, subsample.parts(),
-                                                         std::numeric_limits<double>::infinity(),
-                                                         NeighbourSearch::Ties::any);
-            farthest = std::max(farthest, nearest.distance);
+          const NeighbourSearch::Parts parts = subsample.parts();
+          NeighbourSearch::Query query{.ties = NeighbourSearch::Ties::any, .parts = &parts};
+          for (query.leaf = tree.first_leaf(); query.leaf < tree.node_count(); ++query.leaf) {
+            if (query.leaf % 128 == 0 && context.stop.stop_requested()) return;
+            const KdTree::Position first = tree.begin(query.leaf), last = tree.end(query.leaf);
+            for (KdTree::Position p = first; p < last; ++p)
+              query.limits[p - first] =
+                  subsample.is_chosen(p) ? -1 : std::numeric_limits<double>::infinity();
+            std::array<NeighbourSearch::Neighbour, KdTree::kLeafSize> nearest;
+            search->nearest(query, nearest);
+            for (KdTree::Position p = first; p < last; ++p)
+              if (!subsample.is_chosen(p))
+                farthest = std::max(farthest, nearest[p - first].distance);
           }
           distances[k] = farthest;
         }

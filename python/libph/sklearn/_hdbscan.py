@@ -163,6 +163,9 @@ class HDBSCAN(ClusterMixin, BaseEstimator):
         if how["metric"] == "minkowski":
             how["minkowski_p"] = (self.metric_params or {}).get("p", 2.0)
         points = data[kept] if len(kept) < n else data
+        if alpha == 1 and not self._is_precomputed() and len(kept) == n:
+            return cluster_tree(points, min_size, complex="rips", threshold=np.inf, weights="core",
+                                core_neighbors=rank - 1, **how)
         births = _core_of_stored(points, rank - 1) if scipy.sparse.issparse(points) \
             else core_distances(points, rank - 1, **how)
         if np.isinf(births).any():  # distances: such a row has too few neighbours, and never enters

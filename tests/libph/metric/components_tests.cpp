@@ -85,12 +85,14 @@ TEST(Components, OfPointsAreThoseOfTheWholeFiltration) {
 
 TEST(Components, OfManyAxesAndOtherDistances) {
   for_each_seed(1500, [](Generator& random, bool ties, std::int64_t) {
-    const Points points = random.points(random.integer(1, 12), random.integer(6, 20), ties);
+    const Points points = random.points(random.integer(1, 24), random.integer(6, 20), ties);
     const bool is_cosine = random.coin() && as_matrix(points).rowwise().norm().minCoeff() > 0;
     RipsOptions options{.distance =
                             is_cosine ? PointDistance::cosine : kSearched[random.integer(0, 3)]};
     if (random.integer(0, 3) == 0) options.distance = PointDistance::hamming;
     if (random.coin()) options.threshold = 4 * random.value(ties);
+    if (random.coin())
+      options.births = births_of(random, points, options.distance, options.minkowski_p, 1);
     expect_components_of_the_whole(points, options);
   });
 }
@@ -127,21 +129,25 @@ struct AnyDistance {
   double operator()(Index i, Index j) const { return metric(i, j); }
 };
 
-// Clusters of clusters, a grid with many ties, a line, and scattered points. There are enough
-// points to run all parts of the search.
+/// Clusters of clusters, a grid with many ties, a line, or scattered points.
+Points many_points(Generator& random, Index n) {
+  const Index d = random.coin() ? random.integer(1, 5) : random.integer(9, 14);
+  Points points = random.points(n, d, false);
+  const int kind = random.integer(0, 3);
+  if (kind == 0) points = to_points((as_matrix(points) * 6).array().round());
+  if (kind == 1)
+    for (Index i = 0; i < n; ++i)
+      as_matrix(points).row(i) = as_matrix(points).row(i) * std::ldexp(1, -random.integer(0, 60)) +
+                                 as_matrix(points).row(random.integer(0, 4));
+  if (kind == 2)
+    for (Index k = 1; k < d; ++k) as_matrix(points).col(k) = as_matrix(points).col(0);
+  return points;
+}
+
+// There are enough points to run all parts of the search.
 TEST(Components, OfManyPointsAreThoseOfAllPairs) {
-  for_each_seed(48, [](Generator& random, bool, std::int64_t) {
-    const Index n = random.integer(200, 2500), d = random.integer(1, 5);
-    Points points = random.points(n, d, false);
-    const int kind = random.integer(0, 3);
-    if (kind == 0) points = to_points((as_matrix(points) * 6).array().round());
-    if (kind == 1)
-      for (Index i = 0; i < n; ++i)
-        as_matrix(points).row(i) =
-            as_matrix(points).row(i) * std::ldexp(1, -random.integer(0, 60)) +
-            as_matrix(points).row(random.integer(0, 4));
-    if (kind == 2)
-      for (Index k = 1; k < d; ++k) as_matrix(points).col(k) = as_matrix(points).col(0);
+  for_each_seed(64, [](Generator& random, bool, std::int64_t) {
+    const Points points = many_points(random, random.integer(200, 2500));
     RipsOptions options{.distance = kSearched[random.integer(0, 3)], .minkowski_p = 3};
     if (random.coin()) options.threshold = random.real() / 2;
     if (random.coin())
@@ -157,6 +163,36 @@ TEST(Components, OfManyPointsAreThoseOfAllPairs) {
       EXPECT_TRUE(std::ranges::equal(rips.graph(RipsForm::forest).edges(),
                                      of_all_pairs.graph(RipsForm::forest).edges(), same_edges));
     }
+  });
+}
+
+void expect_same_forest(const Rips& a, const Rips& b) {
+  const RipsGraph &of_a = a.graph(RipsForm::forest), &of_b = b.graph(RipsForm::forest);
+  EXPECT_TRUE(std::ranges::equal(of_a.edges(), of_b.edges(), same_edges));
+  ASSERT_EQ(of_a.size(), of_b.size());
+  for (Index v = 0; v < of_a.size(); ++v)
+    EXPECT_EQ(of_a.birth(std::uint32_t(v)), of_b.birth(std::uint32_t(v)));
+}
+
+// The core distances and the edges are found together. With births that are given, each edge is
+// compared.
+TEST(Components, WithCoreDistancesAreThoseOfTheirBirths) {
+  for_each_seed(3000, [](Generator& random, bool ties, std::int64_t seed) {
+    const bool are_many = seed % 60 == 0;
+    Points points = are_many ? many_points(random, random.integer(200, 1500))
+                             : random.points(random.integer(2, 40), random.integer(1, 12), ties);
+    if (random.integer(0, 3) == 0)
+      for (Index i = 1; i < points.rows(); ++i)
+        if (random.coin()) copy_point(points, random.integer(0, int(i) - 1), points, i);
+    RipsOptions options{.distance = kSearched[random.integer(0, 3)], .minkowski_p = 3};
+    const Index k = random.integer(1, int(std::min<Index>(points.rows() - 1, 20)));
+    const PointMetric metric(points, options.distance, options.minkowski_p);
+    RipsOptions with_births = options;
+    with_births.births = core_distances(metric, k);
+    options.core_neighbours = k;
+    RunContext context;
+    context.threads = random.integer(1, 3);
+    expect_same_forest(Rips(points, options, context), Rips(AnyDistance{metric}, with_births));
   });
 }
 

@@ -188,8 +188,8 @@ TEST(NearPairsOfATree, AreThoseOfAllPairs) {
                                          PointDistance::chebyshev, PointDistance::minkowski};
   for_each_seed(800, [&](Generator& random, bool ties, std::int64_t) {
     const int n = random.integer(1, 60);
-    Points points = random.points(n, random.integer(1, 6), ties);
-    const double units[] = {1, 1, 1e-3, 1e100, 1e200, 1e307, 1e-200, 1e-310};
+    Points points = random.points(n, random.integer(1, 13), ties);
+    const double units[] = {1, 1, 1e-3, 1e100, 1e200, 1e306, 1e-200, 1e-310};
     scale(points.coordinates(), units[random.integer(0, 7)]);
     const PointDistance distance = distances[random.integer(0, 3)];
     // Compared with the coordinate of one ordinary point, the powers of tiny distances are 0.
@@ -200,7 +200,8 @@ TEST(NearPairsOfATree, AreThoseOfAllPairs) {
     std::iota(all.begin(), all.end(), 0U);
     const KdTree tree(points, all, default_context());
     const PointMetric metric(tree.points(), distance, p);
-    const auto search = NeighbourSearch::make(tree, metric, distance, p);
+    const auto search =
+        NeighbourSearch::make(tree, metric, distance, p, nullptr, default_context());
     const double inclusive = given(random.integer(0, n - 1), 0);
     for (const double radius : {inclusive, std::nextafter(inclusive, 0.0), kInf}) {
       std::vector<WeightedEdge> edges;

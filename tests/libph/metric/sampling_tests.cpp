@@ -324,7 +324,6 @@ TEST(CoreDistances, AreWhatTheyAreByDefinition) {
   });
 }
 
-// With more than eight axes, all pairs are compared.
 TEST(CoreDistances, OfManyAxes) {
   for_each_seed(300, [](Generator& random, bool ties, std::int64_t) {
     Points points = random.points(random.integer(1, 90), random.integer(9, 14), ties);

@@ -35,6 +35,12 @@ class KdTree {
   bool is_leaf(Node node) const { return node >= first_leaf(); }
   Position begin(Node node) const { return bound(node, 0); }
   Position end(Node node) const { return bound(node, 1); }
+  /// The leaf of a position.
+  Node leaf_of(Position p) const {
+    auto leaf = static_cast<Node>(first_leaf() + std::uint64_t{p} * first_leaf() / size());
+    while (end(leaf) <= p) ++leaf;
+    return leaf;
+  }
   /// The smallest box around the points of a node: smallest and largest coordinate, axis by axis.
   const double* box(Node node) const { return boxes_.data() + node * box_size(); }
 

@@ -65,12 +65,18 @@ class RipsGraph {
   static RipsGraph forest_of_metric(const M& metric, std::optional<double> threshold,
                                     const RunContext& context, const VertexWeights& weights = {});
   /// The same forest for points, in near-linear time. Precondition:
-  /// has_fast_spanning_forest(points, distance).
+  /// has_fast_spanning_forest(distance).
   /// @param births the values at which the points enter, with WeightExponent::infinity; if empty,
   /// all points enter at 0.
   static RipsGraph forest_of_points(PointsView points, PointDistance distance, double p,
                                     std::span<const double> births,
                                     std::optional<double> threshold, const RunContext& context);
+  /// The same forest with core distances as births, which one search finds together with edges.
+  /// @param neighbours 1 to the number of points - 1. Precondition: as for forest_of_points, and at
+  /// least one coordinate.
+  static RipsGraph core_forest_of_points(PointsView points, Index neighbours,
+                                         PointDistance distance, double p,
+                                         const RunContext& context);
   /// The same forest for Euclidean points, computed on a GPU. @throws Error (not_built_in,
   /// resource); Error (usage) as gpu::spanning_forest.
   static RipsGraph forest_on_gpu(PointsView points, std::optional<double> threshold,
