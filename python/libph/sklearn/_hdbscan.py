@@ -12,11 +12,9 @@ from sklearn.base import BaseEstimator, ClusterMixin
 from sklearn.metrics import pairwise_distances
 from sklearn.utils.validation import check_is_fitted
 
-from .. import _core, _options, _run
-from .._clusters import Clusters, ClusterTree, cluster_tree, of_forest
+from .. import _hierarchy, _options
+from .._clusters import Clusters, of_forest
 from .._errors import DataError, UsageError
-from .._points import core_distances
-from .._sources import METRICS
 from .._trees import MergeTree
 from ._base import table_of
 
@@ -24,7 +22,6 @@ _Integers = NDArray[np.int64]
 _Numbers = NDArray[np.float64]
 
 INFINITE, MISSING = -2, -3  # labels of rows with infinite numbers and with NaN
-_METRICS = {**METRICS, "infinity": "chebyshev", "p": "minkowski"}  # by scikit-learn's names
 
 
 class HDBSCAN(ClusterMixin, BaseEstimator):
@@ -142,45 +139,28 @@ class HDBSCAN(ClusterMixin, BaseEstimator):
         else:
             self._marks = _marks_of(data)
         kept = np.flatnonzero(self._marks == 0)
-        self.cluster_tree_ = self._tree_of(data, kept, min_size)
+        self._hierarchy = self._hierarchy_of(data, kept, min_size)
+        self.cluster_tree_ = self._hierarchy.tree
         chosen = self.cluster_tree_.select(**self._selection())
         self.labels_, self.probabilities_ = self._marked(chosen)
         self._chosen = chosen.chosen
-        self._data = data  # for predict
         self._centres_of(data)
         return self
 
-    def _tree_of(self, data: Any, kept: _Integers, min_size: int) -> ClusterTree:
-        n = data.shape[0]
+    def _hierarchy_of(self, data: Any, kept: _Integers, min_size: int) -> _hierarchy.Hierarchy:
         rank = min_size if self.min_samples is None else _options.whole(
             "min_samples", self.min_samples, 1)
         if rank > len(kept):
             name = "min_cluster_size" if self.min_samples is None else "min_samples"
             raise UsageError(f"{name}: found {rank}, expected at most the number of rows that are "
                              f"finite, n_samples = {len(kept)}")
-        alpha = _options.positive("alpha", self.alpha)
-        how: dict[str, Any] = {"metric": self._metric(), "threads": effective_n_jobs(self.n_jobs)}
-        if how["metric"] == "minkowski":
-            how["minkowski_p"] = (self.metric_params or {}).get("p", 2.0)
-        points = data[kept] if len(kept) < n else data
-        if alpha == 1 and not self._is_precomputed() and len(kept) == n:
-            return cluster_tree(points, min_size, complex="rips", threshold=np.inf, weights="core",
-                                core_neighbors=rank - 1, **how)
-        births = _core_of_stored(points, rank - 1) if scipy.sparse.issparse(points) \
-            else core_distances(points, rank - 1, **how)
-        if np.isinf(births).any():  # distances: such a row has too few neighbours, and never enters
-            kept = np.flatnonzero(np.isfinite(births))
-            births, points = births[kept], points[kept][:, kept]
-        tree = cluster_tree(points, min_size, complex="rips", threshold=np.inf,
-                            weights=births * alpha, **how)
-        if len(kept) == n and alpha == 1:
-            return tree
-        births_of_all = np.full(n, np.inf)
-        births_of_all[kept] = births
-        return of_forest(births_of_all, tree.values / alpha, kept[tree.edges], min_size, "inverse")
+        return _hierarchy.Hierarchy(
+            data, kept, rank - 1, min_size, metric=self._metric(),
+            p=(self.metric_params or {}).get("p", 2.0), alpha=_options.positive("alpha", self.alpha),
+            threads=effective_n_jobs(self.n_jobs))
 
     def _metric(self) -> Any:
-        return _METRICS.get(self.metric, self.metric) if isinstance(self.metric, str) \
+        return _hierarchy.METRICS.get(self.metric, self.metric) if isinstance(self.metric, str) \
             else self.metric
 
     def _is_precomputed(self) -> bool:
@@ -225,23 +205,12 @@ class HDBSCAN(ClusterMixin, BaseEstimator):
     def cluster_persistence_(self) -> _Numbers:
         """The stability of each cluster, as a share of the largest that a cluster of its size could
         have."""
-        clusters = self.cluster_tree_.clusters
-        least = clusters["least"][-1] if len(clusters) else 0.0
-        if least == 0:  # copies of a point never separate
-            return np.ones(len(self._chosen))
-        chosen = clusters[self._chosen]
-        return np.asarray(chosen["mass"] / chosen["size"] * least)
+        return _hierarchy.persistence(self.cluster_tree_, self._chosen)
 
     @property
     def exemplars_(self) -> list[_Integers]:
         """For each cluster, the rows that stay longest in the leaves of the tree inside it."""
-        tree = self.cluster_tree_
-        clusters = tree.clusters
-        is_leaf = np.ones(len(clusters), dtype=bool)
-        is_leaf[clusters["parent"][clusters["parent"] >= 0]] = False
-        own = tree.cluster_of
-        is_last = is_leaf[own] & (tree.leaves_at == clusters["bottom"][own])
-        return [np.flatnonzero(is_last & (self.labels_ == c)) for c in range(len(self._chosen))]
+        return _hierarchy.exemplars(self.cluster_tree_, self._chosen, self.labels_)
 
     @property
     def merge_tree_(self) -> MergeTree:
@@ -315,37 +284,10 @@ allow_single_cluster, max_cluster_size
         tree = self.cluster_tree_
         joined, values = np.full(len(data), -1), np.full(len(data), np.inf)
         kept = marks == 0
-        joined[kept], values[kept] = self._attachments(data[kept])
+        joined[kept], values[kept] = self._hierarchy.attachments(data[kept])
         found = tree._locate(joined, values, **self._selection())
         return (np.where(marks < 0, marks, found.labels),
                 np.where(marks == MISSING, np.nan, found.probabilities))
-
-    def _attachments(self, data: _Numbers) -> tuple[_Integers, _Numbers]:
-        """For each new row, the fitted row that it reaches first, and the value at which it does."""
-        births = self.cluster_tree_.births
-        fitted = np.flatnonzero(np.isfinite(births))
-        rank = self.min_cluster_size if self.min_samples is None else self.min_samples
-        metric, alpha, options = self._metric(), self.alpha, {
-            "threads": effective_n_jobs(self.n_jobs)}
-        if isinstance(metric, str) and metric != "precomputed":
-            p = float((self.metric_params or {}).get("p", 2.0))
-            points = np.ascontiguousarray(self._data[fitted])
-            core = np.asarray(_run.run(_core.core_distances_among, points, data, rank - 1, metric, p,
-                                       options=options))
-            found = _run.run(_core.attachments, points, births[fitted] * alpha, data, core * alpha,
-                             metric, p, options=options)
-            joined, values = (np.asarray(block) for block in found)
-        else:
-            distances = data[:, fitted] if metric == "precomputed" else np.array(
-                [[metric(x, y) for y in self._data[fitted]] for x in data]).reshape(len(data), -1)
-            core = np.zeros(len(data)) if rank == 1 else np.full(len(data), np.inf)
-            if 1 < rank <= len(fitted):
-                core = np.partition(distances, rank - 1, axis=1)[:, rank - 1]
-            reach = np.maximum(np.maximum(distances, births[fitted] * alpha), core[:, None] * alpha)
-            joined = reach.argmin(axis=1)
-            values = reach.min(axis=1)
-            joined[np.isinf(values)] = -1
-        return np.where(joined >= 0, fitted[joined], -1), values / alpha
 
     def dbscan_clustering(self, cut_distance: float, min_cluster_size: int = 5) -> _Integers:
         """The labels of DBSCAN* with a given radius: clusters are components at one value.
@@ -394,18 +336,3 @@ def _check_distances(data: Any) -> _Integers:
         raise DataError("X: found NaN among the distances, expected numbers at least 0; inf means "
                         "that a pair is never joined")
     return np.zeros(data.shape[0], dtype=np.int64)
-
-
-def _core_of_stored(distances: Any, k: int) -> _Numbers:
-    """The core distances of a sparse matrix of distances, infinite for rows that store fewer than k
-    of them."""
-    rows = scipy.sparse.csr_matrix(distances)
-    rows.sum_duplicates()
-    core = np.zeros(rows.shape[0])
-    if k == 0:
-        return core
-    for i in range(rows.shape[0]):
-        of_row = slice(rows.indptr[i], rows.indptr[i + 1])
-        others = rows.data[of_row][rows.indices[of_row] != i]
-        core[i] = np.partition(others, k - 1)[k - 1] if len(others) >= k else np.inf
-    return core
