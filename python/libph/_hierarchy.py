@@ -91,8 +91,9 @@ class Hierarchy:
             self.births = np.full(n, np.inf)
             self.births[kept] = births
         if len(kept) < n or alpha != 1 or reading is not as_they_are:
-            tree = of_forest(reading(self.births), reading(tree.values / alpha), kept[tree.edges],
-                             min_size, "inverse")
+            # Births are multiplied and divided as well, so that rounding keeps the order.
+            tree = of_forest(reading(self.births * alpha / alpha), reading(tree.values / alpha),
+                             kept[tree.edges], min_size, "inverse")
         self.tree = tree
 
     def attachments(self, rows: Any) -> tuple[_Integers, _Numbers]:

@@ -89,6 +89,14 @@ def test_points_and_distances_give_the_same(rng, kind, metric):
     assert np.allclose(found.outlier_scores_, expected.outlier_scores_)
 
 
+@pytest.mark.parametrize("alpha", [0.3, 2**0.5, 3.7])
+def test_rounding_by_alpha_keeps_the_order(rng, alpha):
+    found = HDBSCAN(alpha=alpha).fit(blobs(rng))
+    tree = found.cluster_tree_
+    assert (tree.births[tree.edges].max(axis=1) <= tree.values).all()
+    assert np.array_equal(found.merge_tree_.values, tree.values)
+
+
 def test_pairs_that_are_not_stored_are_never_joined(rng):
     X = np.vstack([rng.normal(0, 0.3, (20, 2)), rng.normal(9, 0.3, (20, 2)), [[50, 50]]])
     D = spatial.squareform(spatial.pdist(X))
