@@ -71,13 +71,17 @@ def test_a_keyword_like_no_other_has_no_hint():
 
 # Functions that hand unknown keywords on; tests of their own call them.
 HAND_ON = {"batch", "estimate", "merge_tree", "report", "Barcode.plot", "Barcode.report",
-           "Rips.plot", "DiagramDistances.fit_transform", "DiagramKernels.fit_transform"}
+           "Rips.plot", "DiagramDistances.fit_transform", "DiagramKernels.fit_transform",
+           "HDBSCAN.set_params",
+           *(f"libph.compat.hdbscan.{name}" for name in (
+               "HDBSCAN", "hdbscan", "robust_single_linkage", "validity_index"))}
 
 
 def callables():
     """All functions, constructors and methods with parameters, by name."""
     modules = [ph, ph.gradients, *(getattr(ph.compat, name) for name in
-                                   ("ripser", "gph", "cripser", "tcripser", "gudhi", "persim"))]
+                                   ("ripser", "gph", "cripser", "tcripser", "gudhi", "persim",
+                                    "hdbscan"))]
     of_gudhi = ["hera", "wasserstein"]
     if importlib.util.find_spec("sklearn"):
         modules.append(ph.sklearn)

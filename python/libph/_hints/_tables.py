@@ -70,6 +70,11 @@ MODULE = _table(
     ("gromov_hausdorff", "persim has it"),
     ("representations representation vectorization vectorisation vectorizations", _VECTORS),
     ("clustering", "use libph.sklearn.PersistenceClustering"),
+    ("HDBSCAN hdbscan",
+     "use libph.sklearn.HDBSCAN, or libph.compat.hdbscan for hdbscan's interface"),
+    ("RobustSingleLinkage robust_single_linkage",
+     "use ph.cluster_tree with weights='core', whose result has the method cut"),
+    ("PLSCAN", "fast_hdbscan has it; the result of ph.cluster_tree has the method with_min_size"),
     ("subsampling", "use ph.farthest_points"),
     ("point_cloud", "use ph.delay_embedding, ph.distance_to_measure"),
 )
@@ -167,6 +172,10 @@ MISSING_NAMES = {
         ("CoverComplex MapperComplex NerveComplex GraphInducedComplex TangentialComplex "
          "pick_n_random_points plot_persistence_density write_points_to_off_file", ""),
     ),
+    "hdbscan": _table(
+        ("BranchDetector detect_branches_in_clusters approximate_predict_branch",
+         "ph.lower_star of minus the eccentricities has a bar for each branch"),
+    ),
 }
 MISSING_MODULES = {
     "persim": _as_in_module("landscapes heat persistent_entropy") | _table(
@@ -185,6 +194,12 @@ MISSING_MODULES = {
         ("tensorflow", "libph.torch and libph.gradients differentiate bars"),
         ("cover_complex tangential_complex nerve_gic datasets witness_complex "
          "strong_witness_complex euclidean_witness_complex euclidean_strong_witness_complex", ""),
+    ),
+    "hdbscan": _table(
+        ("branches branch_data", "ph.lower_star of minus the eccentricities has a bar for each "
+         "branch"),
+        ("flat", "HDBSCAN takes cluster_selection_epsilon"),
+        ("dist_metrics", ""),
     ),
 }
 

@@ -35,6 +35,8 @@ _MODULES: dict[str, dict[str, str]] = {
                          "gudhi.simplex_tree", "gudhi.weighted_rips_complex"], "gudhi")},
     "persim": dict.fromkeys(["persim.bottleneck", "persim.visuals", "persim.wasserstein"],
                             "persim"),
+    "hdbscan": {"hdbscan.plots": "", "hdbscan.prediction": "", "hdbscan.validity": "",
+                "hdbscan.hdbscan_": "hdbscan", "hdbscan.robust_single_linkage_": "hdbscan"},
 }
 _DROP_INS = sorted([*_MODULES, "tcripser"])
 
@@ -45,8 +47,8 @@ def install(*names: str) -> None:
     Parameters
     ----------
     *names : str
-        "ripser", "gph", "cripser" (with "tcripser"), "gudhi", "persim". Their modules, such as
-        ripser.ripser and gudhi.rips_complex, are included.
+        "ripser", "gph", "cripser" (with "tcripser"), "gudhi", "persim", "hdbscan". Their modules,
+        such as ripser.ripser and gudhi.rips_complex, are included.
 
     Raises
     ------

@@ -11,7 +11,7 @@ from typing import Any, NoReturn
 from .._errors import NotBuiltIn
 
 _HERE = __name__.rpartition(".")[0]
-_PACKAGES = {"gudhi": "GUDHI", "persim": "persim"}
+_PACKAGES = {"gudhi": "GUDHI", "hdbscan": "hdbscan", "persim": "persim"}
 
 
 def attribute(module: str, name: str, known: Iterable[str]) -> Any:

@@ -30,7 +30,8 @@ def test_libph_loads_no_drop_in_and_no_other_package():
     assert not any(name.startswith("libph.compat") for name in loaded)
 
 
-@pytest.mark.parametrize("name", ["ripser", "gph", "cripser", "tcripser", "persim", "gudhi"])
+@pytest.mark.parametrize(
+    "name", ["ripser", "gph", "cripser", "tcripser", "persim", "gudhi", "hdbscan"])
 def test_a_drop_in_loads_no_other_package(name):
     loaded = run(f"import sys, libph.compat.{name}; print(*sys.modules)").split()
     assert not {n.split(".")[0] for n in loaded} & {"sklearn", "scipy", "matplotlib", "pandas"}
@@ -84,7 +85,7 @@ def test_install():
 def test_names_of_modules():
     code = """if True:
         from libph import compat
-        compat.install("ripser", "gph", "cripser", "gudhi", "persim")
+        compat.install("ripser", "gph", "cripser", "gudhi", "persim", "hdbscan")
         from ripser.ripser import Rips, ripser as function, get_greedy_perm
         import ripser, ripser.ripser, gph, gph.python.ripser_interface as interface
         import persim, persim.visuals as visuals
@@ -110,6 +111,14 @@ def test_names_of_modules():
         assert computePH is cripser.tcripser.computePH is tcripser.computePH is cripser.computePH_T
         assert gudhi.rips_complex.RipsComplex is rips_complex.RipsComplex is gudhi.RipsComplex
         assert gudhi.sklearn.RipsPersistence is RipsPersistence
+        import hdbscan, hdbscan.plots, hdbscan.prediction as prediction
+        from hdbscan.hdbscan_ import HDBSCAN, hdbscan as function
+        from hdbscan.robust_single_linkage_ import RobustSingleLinkage, robust_single_linkage
+        from hdbscan.validity import validity_index
+        assert hdbscan.HDBSCAN is HDBSCAN and hdbscan.hdbscan is function
+        assert prediction.approximate_predict is hdbscan.approximate_predict
+        assert hdbscan.validity.validity_index is validity_index is hdbscan.validity_index
+        assert hdbscan.plots.CondensedTree.__module__ == "libph.compat.hdbscan.plots"
     """
     run(code)
 
@@ -129,7 +138,7 @@ def test_gudhi_without_scikit_learn():
 
 def test_each_has_the_version_of_libph():
     import importlib
-    for name in ("ripser", "gph", "cripser", "tcripser", "gudhi", "persim"):
+    for name in ("ripser", "gph", "cripser", "tcripser", "gudhi", "persim", "hdbscan"):
         module = importlib.import_module(f"libph.compat.{name}")
         assert module.__version__ == ph.__version__
         for public in module.__all__:
@@ -157,7 +166,7 @@ def test_install_refuses():
 # ---- parts of the originals that the drop-ins lack
 
 
-@pytest.mark.parametrize("package", ["gudhi", "persim"])
+@pytest.mark.parametrize("package", ["gudhi", "hdbscan", "persim"])
 def test_missing_names(package):
     for path, hint in _hints.MISSING_NAMES[package].items():
         module, _, name = f"libph.compat.{package}.{path}".rpartition(".")
@@ -175,7 +184,7 @@ def test_missing_modules():
     code = """if True:
         import importlib
         from libph import _hints, compat
-        compat.install("gudhi", "persim")
+        compat.install("gudhi", "hdbscan", "persim")
         count = 0
         for package, table in _hints.MISSING_MODULES.items():
             for path, hint in table.items():
