@@ -9,7 +9,7 @@ a page would change.
 A CSV file begins with a column `shown` (yes: the row is on the page) and ends with the columns
 `script`, `machine`, `date` and `versions`, from which the line above the table is made. In a row
 that was not measured, these columns are empty. The columns between them are the columns of the
-table. Two columns "X s" and "X MB" become one column X. Needs only the standard library.
+table. Two columns "X s" and "X MB", or "X s" and "X B", become one column X. Needs only the standard library.
 """
 import argparse
 import csv
@@ -23,6 +23,7 @@ from pathlib import Path
 PAGES = ("docs/notes/benchmarks.md", "docs/reference/segmentation-constants.md")
 RESULTS = "bench/results"
 SOURCE = ["script", "machine", "date", "versions"]
+MEMORY = ("MB", "B")  # B: bytes per point
 CODE = ("name", "value")  # the columns that are parts of sources
 TABLE = re.compile(r"(<!-- table: (\S+) -->\n).*?(<!-- end -->\n)", re.DOTALL)
 
@@ -40,11 +41,15 @@ def read(path):
     return columns, [dict(zip(header, row)) for row in rows if row[0]]
 
 
+def memory_of(what, columns):
+    """The name of the column with the memory of `what`, or None."""
+    return next((f"{what} {unit}" for unit in MEMORY if f"{what} {unit}" in columns), None)
+
+
 def names_of(columns):
     """The columns on the page: X for the two columns "X s" and "X MB"."""
-    pairs = {name[:-2] for name in columns if name.endswith(" s") and f"{name[:-2]} MB" in columns}
-    merged = (name[:-2] if name[:-2] in pairs and name.endswith(" s") else name for name in columns)
-    return [name for name in merged if not (name.endswith(" MB") and name[:-3] in pairs)]
+    pairs = {name: memory_of(name[:-2], columns) for name in columns if name.endswith(" s")}
+    return [name[:-2] if pairs.get(name) else name for name in columns if name not in pairs.values()]
 
 
 def cell(row, name):
@@ -52,7 +57,7 @@ def cell(row, name):
         return f"`{row[name]}`"
     if name in row:
         return row[name]
-    return " / ".join(filter(None, (row[f"{name} s"], row[f"{name} MB"])))
+    return " / ".join(filter(None, (row[f"{name} s"], row[memory_of(name, row)])))
 
 
 def caption(rows, root):
