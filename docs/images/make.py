@@ -20,8 +20,8 @@ sys.path.insert(0, str(ROOT / "tests/docs"))
 from commands_in_pages import commands_of, pages_with_commands, pictures_of  # noqa: E402
 
 # For each example, its picture here and its data, if any.
-EXAMPLES = {"cluster_moons": ["cluster-moons"], "grow_loop": ["grow-loop"],
-            "clouds_to_features": ["clouds-to-features"],
+EXAMPLES = {"cluster_moons": ["cluster-moons"], "cluster_tree": ["cluster-tree"],
+            "grow_loop": ["grow-loop"], "clouds_to_features": ["clouds-to-features"],
             "two_circles": ["two-circles", ROOT / "examples/data/two_circles.csv"],
             "textures": ["textures"], "molecule": ["molecule"], "growing_discs": ["growing-discs"],
             "noise_band": ["noise-band"], "sweeping_level": ["sweeping-level"],

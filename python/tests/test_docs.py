@@ -106,8 +106,8 @@ def test_that_there_are_pages():
 
 
 @pytest.mark.parametrize("name, data", [
-    ("cluster_moons", []), ("clouds_to_features", []), ("grow_loop", []), ("growing_discs", []),
-    ("sweeping_level", []), ("textures", []), ("molecule", []),
+    ("cluster_moons", []), ("cluster_tree", []), ("clouds_to_features", []), ("grow_loop", []),
+    ("growing_discs", []), ("sweeping_level", []), ("textures", []), ("molecule", []),
     ("delay_embedding", [SOURCE / "examples/data/pulse.csv"]),
     ("two_circles", [SOURCE / "examples/data/two_circles.csv"])])
 def test_examples(name, data, tmp_path):
