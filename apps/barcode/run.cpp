@@ -19,6 +19,7 @@
 #include "apps/barcode/output/report.hpp"
 #include "apps/barcode/output/significance.hpp"
 #include "apps/barcode/output/stored.hpp"
+#include "apps/common/inputs/read_data.hpp"
 #include "apps/common/system/process.hpp"
 #include "apps/common/terminal/build_information.hpp"
 #include "apps/common/terminal/exit_code.hpp"
@@ -116,7 +117,7 @@ std::optional<PointsView> points_with_places(const Loaded& loaded) {
   if (!loaded.data || std::holds_alternative<Cubical>(loaded.built.complex) ||
       (alpha && alpha->is_periodic()))
     return std::nullopt;
-  return points_of(loaded.data->read);
+  return app::points_of(loaded.data->read);
 }
 
 /// Must be called before the computation. @throws Error (usage) if CSV is the only output for
@@ -225,8 +226,8 @@ class Run {
 
   void write_surfaces(const Loaded& loaded, Outputs& outputs) {
     if (job_.places.surfaces.empty()) return;
-    outputs.write_surfaces(std::get<Alpha>(loaded.built.complex), *points_of(loaded.data->read),
-                           loaded.point_ids, context());
+    outputs.write_surfaces(std::get<Alpha>(loaded.built.complex),
+                           *app::points_of(loaded.data->read), loaded.point_ids, context());
     watch_.lap("surfaces");
   }
 

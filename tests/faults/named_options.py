@@ -49,6 +49,8 @@ def programs_of(path):
         return ("ph-barcode",)
     if path.startswith("apps/common/distances/"):
         return ("ph-distance",)
+    if re.match(r"apps/common/inputs/(set_options|read_data)", path):  # of points and distances
+        return ("ph-barcode",)
     # Code that draws pictures names options for pictures.
     if path.startswith("apps/common/") and "plot" not in path:
         return ("ph-barcode", "ph-segment", "ph-vectorise", "ph-distance")

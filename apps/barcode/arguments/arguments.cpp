@@ -12,6 +12,7 @@
 
 #include "apps/barcode/arguments/argument_groups.hpp"
 #include "apps/common/files/batch_names.hpp"
+#include "apps/common/inputs/set_options.hpp"
 #include "apps/common/values/numbers.hpp"
 #include "ph/detail/core/lower_case.hpp"
 #include "ph/detail/report/page_template.hpp"
@@ -64,28 +65,8 @@ void add_input_options(app::Options& options, Job& job) {
       job.reading.values);
   options.flag({"--allow-empty", kOfInputs}, "an input without points is no error",
                job.reading.options.allow_empty);
-  options.choice<Symmetrise>(
-      {"--symmetrise", kOfMatrices},
-      "take an asymmetric distance matrix, by the larger, the smaller or the lower entry",
-      [&job](Symmetrise way) {
-        job.reading.options.symmetrise = way;
-        job.reading.options.array = ArrayMeaning::distances;
-      },
-      std::span(names_of<Symmetrise>).subspan(1));
   // mutant: scope-correlation
-  options.flag({"--from-correlation", kOfDistances},
-               "the matrix holds correlations r; distances are 1 - r", [&job] {
-                 job.reading.options.from_correlation = true;
-                 job.reading.options.array = ArrayMeaning::distances;
-               });
-  options.choice(
-      {"--diagonal", kOfMatrices}, {"zero", "births"},
-      "what the diagonal of a distance matrix has: 0, whatever stands there, or when each "
-      "point enters (default: 0, else an error)",
-      [&job](std::size_t i) {
-        job.reading.options.diagonal = i == 0 ? Diagonal::any : Diagonal::births;
-        job.reading.options.array = ArrayMeaning::distances;
-      });
+  app::add_matrix_options(options, kOfMatrices, kOfDistances, job.reading.options);
   options.choice(
       {"--nan",
        {kRips | kCubical | kOwn | kAlpha | kSomeLayers | kSomeBlocks,

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "apps/common/inputs/set_options.hpp"
 #include "apps/common/values/choices.hpp"
 #include "apps/common/values/numbers.hpp"
 #include "ph/detail/core/field.hpp"
@@ -24,24 +25,6 @@ using Names = std::vector<std::string_view>;
 
 // A simplex of a higher dimension would not fit into memory.
 constexpr int kMostDimensions = 1'000'000;
-
-void take_metric(Job& job, const std::string& text) {
-  constexpr std::string_view kMinkowski = "minkowski:";
-  if (text.starts_with(kMinkowski)) {
-    job.question.rips.distance = PointDistance::minkowski;
-    job.question.rips.minkowski_p =
-        parse_number("--metric minkowski:P", text.substr(kMinkowski.size()));
-    if (job.question.rips.minkowski_p < 1)
-      throw Error(ErrorKind::usage, fmt::format("--metric: found '{}', expected P >= 1", text));
-  } else if (text == "minkowski") {
-    throw Error(ErrorKind::usage,
-                "--metric: found 'minkowski', expected minkowski:P with its exponent P");
-  } else {
-    Names names(all_names<PointDistance>.begin(), all_names<PointDistance>.end());
-    std::ranges::replace(names, "minkowski", "minkowski:P");
-    job.question.rips.distance = names_of<PointDistance>[choose("--metric", text, names)].value;
-  }
-}
 
 void take_complex(Job& job, const std::string& text) {
   const auto names = complex_names();
@@ -86,10 +69,7 @@ void add_complex_options(app::Options& options, Job& job) {
       [&job](const std::string& text) {
         job.question.threshold = parse_number("--threshold", text);
       });
-  options.value({"--metric", kOfPoints.with(kSomeBlocks)},
-                "euclidean|manhattan|chebyshev|cosine|minkowski:P|hamming",
-                "distance of points (default euclidean)",
-                [&job](const std::string& text) { take_metric(job, text); });
+  app::add_metric_option(options, kOfPoints.with(kSomeBlocks), job.question.rips);
 }
 
 void add_homology_options(app::Options& options, Job& job) {

@@ -3,12 +3,9 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <cmath>
-#include <string_view>
-#include <vector>
 
-#include "apps/common/values/choices.hpp"
+#include "apps/common/inputs/set_options.hpp"
 #include "apps/common/values/numbers.hpp"
 
 namespace ph::barcode {
@@ -30,12 +27,6 @@ void take_periodic(Job& job, const std::string& text) {
       job.question.cubical.periodic.resize(axis + 1, false);
     job.question.cubical.periodic[axis] = true;
   }
-}
-
-// The type stays empty until an option gives it, because its default depends on other options.
-RawLayout& raw(Job& job) {
-  if (!job.reading.options.raw) job.reading.options.raw.emplace().type.clear();
-  return *job.reading.options.raw;
 }
 
 }  // namespace
@@ -82,30 +73,10 @@ void add_raw_options(app::Options& options, Job& job) {
       [&job](const std::string& text) {
         constexpr Index most = Index{1} << 32;
         const auto extents = parse_integers("--raw-shape", text, 0, most);
-        raw(job).extents.assign(extents.begin(), extents.end());
+        app::raw_layout(job.reading.options).extents.assign(extents.begin(), extents.end());
       });
-  options.value({"--raw-points", kOfRawPoints}, "D",
-                "numbers per point, in a file of points without a header; --columns chooses some "
-                "of these numbers",
-                [&job](const std::string& text) {
-                  constexpr Index most = Index{1} << 20;
-                  raw(job).coordinates = parse_integer("--raw-points", text, 1, most);
-                });
-  options.choice({"--raw-type", kOfRawNumbers},
-                 {"uint8", "int8", "uint16", "int16", "uint32", "int32", "uint64", "int64",
-                  "float16", "float32", "float64"},
-                 "type of the numbers (default uint8 for an image, float32 for points)",
-                 [&job](std::size_t i) {
-                   constexpr std::array kTypes{"u1", "i1", "u2", "i2", "u4", "i4",
-                                               "u8", "i8", "f2", "f4", "f8"};
-                   raw(job).type = kTypes[i];
-                 });
-  options.flag({"--raw-big-endian", kOfRawNumbers}, "the high byte comes first (default: last)",
-               [&job] { raw(job).big_endian = true; });
-  options.value({"--raw-skip", kOfRawNumbers}, "BYTES", "bytes before the first number (default 0)",
-                [&job](const std::string& text) {
-                  raw(job).skip = static_cast<std::size_t>(parse_integer("--raw-skip", text, 0));
-                });
+  app::add_raw_options(options, kOfRawPoints, kOfRawNumbers,
+                       "uint8 for an image, float32 for points", job.reading.options);
 }
 
 void check_image_arguments(Job& job) {
@@ -126,11 +97,7 @@ void check_image_arguments(Job& job) {
   if (job.reading.format != Format::raw)
     throw Error(ErrorKind::usage, fmt::format("{}: makes sense for --format raw only",
                                               is_cloud ? "--raw-points" : "--raw-shape"));
-  if (layout->type.empty()) layout->type = is_cloud ? "f4" : "u1";
-  if (layout->big_endian && layout->type.ends_with('1'))
-    throw Error(
-        ErrorKind::usage,
-        "--raw-big-endian: found numbers of one byte, expected a --raw-type of several bytes");
+  app::settle_raw(*layout);
 }
 
 }  // namespace ph::barcode

@@ -5,32 +5,14 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <string_view>
 #include <vector>
 
-#include "apps/common/values/choices.hpp"
+#include "apps/common/inputs/set_options.hpp"
 #include "apps/common/values/numbers.hpp"
 
 namespace ph::barcode {
 
 namespace {
-
-void take_columns(Job& job, const std::string& text) {
-  job.reading.options.columns.clear();
-  for (std::string_view rest = text;;) {
-    const std::size_t comma = rest.find(',');
-    std::string_view word = rest.substr(0, comma);
-    while (word.starts_with(' ')) word.remove_prefix(1);
-    while (word.ends_with(' ')) word.remove_suffix(1);
-    if (word.empty())
-      throw Error(ErrorKind::usage,
-                  fmt::format("--columns: found '{}', expected names or numbers such as x,y or 2-3",
-                              printable(text, 80)));
-    job.reading.options.columns.emplace_back(word);
-    if (comma == std::string_view::npos) return;
-    rest.remove_prefix(comma + 1);
-  }
-}
 
 void take_delay(Job& job, const std::string& text) {
   const std::vector<std::int64_t> numbers = app::parse_integers("--delay", text, 1);
@@ -44,11 +26,7 @@ void take_delay(Job& job, const std::string& text) {
 
 void add_table_options(app::Options& options, Job& job) {
   options.topic("input");
-  options.value(
-      {"--columns", kOfInputs.with(kSomeBlocks)}, "LIST",
-      "columns of a table that are read, by the names in its header or by numbers from 1: "
-      "x,y or 2-4 or 1,3 (default: all but an index)",
-      [&job](const std::string& text) { take_columns(job, text); });
+  app::add_columns_option(options, kOfInputs.with(kSomeBlocks), job.reading.options);
   options.value(
       {"--delay", {kPoints | kAlpha | kOwn, "Rips and alpha complexes of time series"}}, "D,TAU",
       "the input is a time series, a row for each time: points are its values at D times, "

@@ -8,36 +8,13 @@
 #include <filesystem>
 
 #include "apps/barcode/arguments/scopes.hpp"
+#include "apps/common/inputs/read_data.hpp"
 #include "apps/common/terminal/messages.hpp"
 #include "apps/common/values/numbers.hpp"
 #include "ph/detail/core/files.hpp"
 
 namespace ph::barcode {
 namespace {
-
-/// The number of bytes of the data that remain in memory while the complex is built.
-std::size_t size_of(const ReadResult& read) {
-  struct Size {
-    std::size_t operator()(const Points& points) const {
-      return static_cast<std::size_t>(points.size()) * sizeof(double);
-    }
-    std::size_t operator()(const DistanceMatrix& distances) const {
-      const auto n = static_cast<std::size_t>(distances.size());
-      return n * (n - std::min<std::size_t>(n, 1)) / 2 * sizeof(double);
-    }
-    std::size_t operator()(const SparseDistances& distances) const {
-      return distances.edges().size() * sizeof(WeightedEdge);
-    }
-    std::size_t operator()(const Image& image) const { return image.values.bytes(); }
-    // The simplices become the complex itself.
-    std::size_t operator()(const SimplicesInput&) const { return 0; }
-    std::size_t operator()(const BoundaryInput&) const { return 0; }
-    std::size_t operator()(const Mesh& mesh) const {
-      return (*this)(mesh.vertices) + mesh.corners.size() * sizeof(Index);
-    }
-  };
-  return std::visit(Size{}, read.data);
-}
 
 bool is_given(const Job& job, std::string_view option) {
   return std::ranges::count(job.given, option, &app::GivenOption::name) > 0;
@@ -116,12 +93,8 @@ Loaded load(const Job& job, std::optional<Input>& input, app::Session& session, 
   }();
   input.reset();
   const auto& [name, read, dropped, sha256] = data;
-  // Scanners mark holes with NaN, so NaN in an image is an error only with --nan error.
-  if (dropped > 0 && is_given(job, "nan") && job.reading.options.nan == NanPolicy::error)
-    throw Error(
-        ErrorKind::bad_data,
-        fmt::format("{}: found {} with NaN, expected numbers; --nan drop leaves such points out",
-                    mark_place(name), app::count_of(dropped, "point")));
+  if (is_given(job, "nan") && job.reading.options.nan == NanPolicy::error)
+    app::require_no_dropped_points(name, dropped);
   const std::string what = fmt::format("read {}: {}", name, read.description);
   // In a batch, the line about each input states the format.
   if (job.reading.format == Format::automatic && job.inputs == std::vector{job.places.input})
@@ -136,10 +109,10 @@ Loaded load(const Job& job, std::optional<Input>& input, app::Session& session, 
                     "-o FILE.svg draws them as bars",
                     name, printable(job.places.input)));
   watch.lap("read");
-  auto claim = std::make_unique<MemoryClaim>(session.context().memory, size_of(read));
+  auto claim = std::make_unique<MemoryClaim>(session.context().memory, app::bytes_of(read));
   std::string description = read.description;
   std::vector<Index> point_ids = read.point_ids;
-  const std::optional<PointsView> view = points_of(read);
+  const std::optional<PointsView> view = app::points_of(read);
   const auto points = view ? std::optional(view->rows()) : number_of_points(read);
   const auto affine = read.affine;
   const bool drops_nan =

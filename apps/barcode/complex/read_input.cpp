@@ -102,10 +102,4 @@ NamedData read_input(const Input& input, const Job& job, const RunContext& conte
   return {input.name(), std::move(read), dropped.size(), std::move(sha256)};
 }
 
-std::optional<PointsView> points_of(const ReadResult& read) {
-  if (const auto* mesh = std::get_if<Mesh>(&read.data)) return mesh->vertices;
-  if (const auto* points = std::get_if<Points>(&read.data)) return *points;
-  return std::nullopt;
-}
-
 }  // namespace ph::barcode

@@ -23,7 +23,4 @@ Input open_input(const std::string& path, const Job& job, const RunContext& cont
 /// @throws Error like the readers.
 NamedData read_input(const Input& input, const Job& job, const RunContext& context);
 
-/// The points, or the vertices of a mesh. Empty for other data.
-std::optional<PointsView> points_of(const ReadResult& read);
-
 }  // namespace ph::barcode

@@ -11,6 +11,7 @@
 #include "apps/barcode/output/stored.hpp"
 #include "apps/common/distances/distance_choice.hpp"
 #include "apps/common/inputs/barcode_files.hpp"
+#include "apps/common/inputs/read_data.hpp"
 #include "apps/common/system/process.hpp"
 #include "apps/common/terminal/build_information.hpp"
 #include "apps/common/terminal/exit_code.hpp"
@@ -34,7 +35,7 @@ constexpr std::size_t kMostComparedBars = 40'000;
 /// coordinates.
 std::optional<PointsView> shown_points(const Shown& shown) {
   if (std::holds_alternative<Cubical>(shown.built.complex)) return std::nullopt;
-  const auto points = points_of(shown.data.read);
+  const auto points = app::points_of(shown.data.read);
   if (!points || points->rows() == 0 || points->cols() == 0) return std::nullopt;
   return points;
 }

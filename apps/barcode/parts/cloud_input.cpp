@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "apps/barcode/parts/part_files.hpp"
+#include "apps/common/inputs/read_data.hpp"
 #include "ph/detail/core/files.hpp"
 #include "ph/detail/io/table.hpp"
 #include "ph/detail/metric/metric.hpp"
@@ -29,14 +30,14 @@ CloudInput read_cloud_input(const std::string& input, const Job& job, app::Sessi
                              detail::start_check(job.reading.format)),
                  job, session.context());
   const std::string& description = data.read.description;
-  const std::optional<PointsView> points = points_of(data.read);
+  const std::optional<PointsView> points = app::points_of(data.read);
   if (!points)
     throw Error(ErrorKind::usage, fmt::format("{}: found {}, expected points", why, description));
   session.explain(fmt::format("read {}: {}", data.name, description));
   for (const Message& note : data.read.notes)
     session.note(fmt::format("{}: {}", data.name, note.marked()));
   CloudInput cloud{std::move(data), {}, {.threshold = job.question.threshold}};
-  cloud.points = *points_of(cloud.data.read);
+  cloud.points = *app::points_of(cloud.data.read);
   return cloud;
 }
 
