@@ -15,6 +15,7 @@
 #include "apps/common/manual/help_text.hpp"
 #include "apps/common/terminal/build_information.hpp"
 #include "apps/common/terminal/exit_code.hpp"
+#include "apps/common/terminal/words.hpp"
 #include "apps/common/values/choices.hpp"
 #include "apps/common/values/numbers.hpp"
 #include "ph/detail/io/output_file.hpp"
@@ -138,6 +139,7 @@ std::optional<std::string> parse_command_line(Options& options, const CommonOpti
                                               int argc, const char* const* argv,
                                               const Manual& manual) {
   CLI::App& app = options.cli();
+  set_known_options(long_names(app));
   try {
     app.parse(argc, argv);
   } catch (const CLI::ExtrasError&) {
