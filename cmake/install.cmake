@@ -36,7 +36,7 @@ if(TARGET ph_pcl)
   install(DIRECTORY libsegment/pcl/include/ph DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT pcl)
 endif()
 if(PH_BUILD_APPS)
-  install(TARGETS ph-barcode ph-distance ph-segment ph-vectorise
+  install(TARGETS ph-barcode ph-cluster ph-distance ph-segment ph-vectorise
           RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT programs)
 endif()
 if(TARGET ph-barcode-mpi)

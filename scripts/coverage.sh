@@ -31,7 +31,7 @@ report() {
 
 readers() {
   cmake --build "$build" -j "$(nproc)" --target io_read_tests io_write_tests truncation_tests fuzz_replay \
-    ph-barcode ph-segment ph-distance ph-vectorise peak
+    ph-barcode ph-cluster ph-segment ph-distance ph-vectorise peak
   # Tests of speed are meaningless in a build without optimisation.
   for test in libph/io_read_tests libph/io_write_tests fuzz/truncation_tests; do
     "$build/tests/$test" --gtest_brief=1 --gtest_filter=-Gzip.BombsEndSoon

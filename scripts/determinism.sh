@@ -13,7 +13,7 @@ jobs=${JOBS:-$(nproc)}
 # Makes ccache share results between clones, including precompiled headers.
 export CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=true
 export CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime
-programs=(ph-barcode ph-distance ph-segment ph-vectorise)
+programs=(ph-barcode ph-cluster ph-distance ph-segment ph-vectorise)
 summary=()
 
 build_with() {

@@ -62,7 +62,7 @@ make_source() {
 
 readme() {
   cat <<END
-# libph $version: ph-barcode, ph-distance, ph-segment and ph-vectorise
+# libph $version: ph-barcode, ph-cluster, ph-distance, ph-segment and ph-vectorise
 
 They run on any Linux of $(uname -m), and need nothing else. A first picture:
 

@@ -73,7 +73,7 @@ test_libph() {
 # here.
 compare_outputs() {
   cmake --preset release >/dev/null
-  cmake --build --preset release -j "$jobs" --target ph-barcode ph-distance ph-segment ph-vectorise
+  cmake --build --preset release -j "$jobs" --target ph-barcode ph-cluster ph-distance ph-segment ph-vectorise
   python3 tests/platforms/same_outputs.py build/release "$@"
 }
 

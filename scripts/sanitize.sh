@@ -19,7 +19,7 @@ jobs=${JOBS:-$(nproc)}
 # Makes ccache share results between clones, including precompiled headers.
 export CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=true
 export CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime
-programs=(ph-barcode ph-distance ph-segment ph-vectorise)
+programs=(ph-barcode ph-cluster ph-distance ph-segment ph-vectorise)
 export ASAN_OPTIONS=detect_stack_use_after_return=1:strict_string_checks=1:check_initialization_order=1
 export PATH=/usr/lib/llvm-19/bin:$PATH  # the folder of llvm-symbolizer
 export PH_TEST_PATIENCE=20  # programs with checks run more slowly

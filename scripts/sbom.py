@@ -160,7 +160,8 @@ def document(build):
     version = re.search(r"VERSION (\d+\.\d+\.\d+)", (ROOT / "CMakeLists.txt").read_text())[1]
     own = package("libph", version, "MIT", supplier="Organization: The libph authors",
                   primaryPackagePurpose="APPLICATION",
-                  comment=f"ph-barcode, ph-distance, ph-segment and ph-vectorise for Linux, {platform.machine()}, linked statically")
+                  comment="ph-barcode, ph-cluster, ph-distance, ph-segment and ph-vectorise for Linux, "
+                          f"{platform.machine()}, linked statically")
     packages, relations = [own], [relation("SPDXRef-DOCUMENT", "DESCRIBES", own["SPDXID"])]
 
     linked = debian_packages(linked_files(build))

@@ -8,7 +8,7 @@ cd "$(dirname "$0")/.."
 scripts/setup.sh docs
 build=${PH_BUILD_DIR:-build/release}
 found=(--folder "${1:-build/site}")
-for name in barcode distance segment vectorise; do
+for name in barcode cluster distance segment vectorise; do
   program=$build/apps/$name/ph-$name
   [ ! -x "$program" ] || found+=("--$name" "$program")
 done

@@ -30,7 +30,7 @@ DOCS = ROOT / "docs"
 ELSEWHERE = {"CHANGELOG.md": "reference/changes.md", "CONTRIBUTING.md": "development/contributing.md",
              "CODE_OF_CONDUCT.md": "development/conduct.md", "SECURITY.md": "development/security.md",
              "viewer/README.md": "development/viewer.md", "bench/README.md": "notes/measuring.md"}
-PROGRAMS = 4  # the programs that must be given together
+PROGRAMS = 5  # the programs that must be given together
 HEADERS = ["libph/include/ph", "libph/include/ph/io", "libph/include/ph/parts",
            "libsegment/include/ph", "libsegment/pcl/include/ph",
            "libreport/include/ph"]
@@ -116,6 +116,7 @@ def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("--folder", type=Path, default=ROOT / "build/site")
     parser.add_argument("--barcode")
+    parser.add_argument("--cluster")
     parser.add_argument("--segment")
     parser.add_argument("--vectorise")
     parser.add_argument("--distance")
@@ -123,8 +124,8 @@ def main():
     arguments = parser.parse_args()
     require_tools()
     folder = arguments.folder.resolve()
-    programs = [program for program in (arguments.barcode, arguments.segment, arguments.vectorise, arguments.distance)
-                if program]
+    programs = [program for program in (arguments.barcode, arguments.cluster, arguments.segment, arguments.vectorise,
+                                        arguments.distance) if program]
     environment = {**os.environ, "PH_SITE_FOLDER": str(folder), "PYTHONDONTWRITEBYTECODE": "1"}
     if arguments.package:
         environment["PYTHONPATH"] = str(arguments.package.resolve())

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""complexity.py PH_BARCODE PH_SEGMENT PH_DISTANCE PH_VECTORISE [full] [WORDS…]: runs attacks, which
-are inputs designed to make a run slow. Each attack has the sizes n, 2n and 4n. The CPU time must
+"""complexity.py PH_BARCODE PH_SEGMENT PH_DISTANCE PH_VECTORISE PH_CLUSTER [full] [WORDS…]: runs
+attacks, which are inputs designed to make a run slow. Each attack has the sizes n, 2n and 4n. The CPU time must
 not grow faster than the complexity class of the attack allows. Some attacks whose time may grow
 quadratically or faster must also reach a memory limit, or --dry-run must predict their memory.
 `full` selects larger sizes, and WORDS the attacks whose names contain the words."""
@@ -139,6 +139,7 @@ def full_simplex(n):
 
 ALPHA = ("barcode", "--complex", "alpha", "p.txt")
 H0 = ("barcode", "--max-dim", "0", "p.txt")
+CLUSTERS = ("cluster", "--scores", "--tree", "t.json", "p.txt")
 DTM = ("barcode", "--dtm", "3", "--max-dim", "0", "p.txt")
 WASSERSTEIN = ("distance", "--distance", "wasserstein", "a.csv", "b.csv")
 BOTTLENECK = ("distance", "a.csv", "b.csv")
@@ -212,6 +213,12 @@ ATTACKS = [
     Attack("births: all equal", points(equal), DTM, 2000, 2.2),
     Attack("births: a cluster of 1e-150", points(tiny_cluster), DTM, 2000, 2.2),
     Attack("births: two clusters that are far", points(two_far), DTM, 2000, 2.2),
+    Attack("clusters: all equal", points(equal), CLUSTERS, 5000),
+    Attack("clusters: a line", points(line), CLUSTERS, 5000),
+    Attack("clusters: points of a circle", points(circle), CLUSTERS, 5000),
+    Attack("clusters: two clusters that are far", points(two_far), CLUSTERS, 2000, 2.2),
+    Attack("clusters: a cluster of 1e-150", points(tiny_cluster), CLUSTERS, 2000, 2.2),
+    Attack("clusters: a star", star, ("cluster", "s.txt", "--format", "sparse", "--neighbours", "1"), 20_000),
     Attack("near pairs: a cluster of 1e-150", points(tiny_cluster), ("barcode", "p.txt", "--threshold", "1e-152"),
            17_000),
     Attack("loops: all equal", points(equal), ("barcode", "p.txt"), 20_000),
@@ -325,7 +332,7 @@ def foreseen_bytes(text_of_run):
 
 
 def main():
-    programs, words = Programs(sys.argv[1:5]), sys.argv[5:]
+    programs, words = Programs(sys.argv[1:6]), sys.argv[6:]
     larger = LARGER if "full" in words else 1
     words = [word for word in words if word != "full"]
     chosen = [attack for attack in ATTACKS if all(word in attack.name for word in words)]

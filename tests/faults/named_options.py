@@ -40,7 +40,7 @@ def sources(folder):
 
 def programs_of(path):
     """The programs that print the texts of a source file."""
-    own = re.match(r"apps/(barcode|vectorise|distance)/", path)
+    own = re.match(r"apps/(barcode|vectorise|distance|cluster)/", path)
     if own:
         return ("ph-" + own[1],)
     if path.startswith(("apps/segment/", "libsegment/")) or DEPTH_AND_ARRAYS.search(path):
@@ -50,10 +50,10 @@ def programs_of(path):
     if path.startswith("apps/common/distances/"):
         return ("ph-distance",)
     if re.match(r"apps/common/inputs/(set_options|read_data)", path):  # of points and distances
-        return ("ph-barcode",)
+        return ("ph-barcode", "ph-cluster")
     # Code that draws pictures names options for pictures.
     if path.startswith("apps/common/") and "plot" not in path:
-        return ("ph-barcode", "ph-segment", "ph-vectorise", "ph-distance")
+        return ("ph-barcode", "ph-segment", "ph-vectorise", "ph-distance", "ph-cluster")
     return ("ph-barcode", "ph-segment")
 
 

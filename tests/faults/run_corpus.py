@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""run_corpus.py PH_BARCODE PH_SEGMENT PH_DISTANCE PH_VECTORISE PEAK [WORDS…]: runs every entry of
+"""run_corpus.py PH_BARCODE PH_SEGMENT PH_DISTANCE PH_VECTORISE PH_CLUSTER PEAK [WORDS…]: runs every entry of
 the corpus (with WORDS, only the entries whose name contains them) in a separate folder. It checks
 the promises about faulty inputs: the exit code, one line on stderr that names the file or the
 option, nothing on stdout, nothing written, no temporary file, an end within a second, and at most
@@ -23,7 +23,7 @@ FRUGAL_KIB, FRUGAL_MICROSECONDS = 16 << 10, 50_000
 NOBODY = 65534
 PAGES = "README.md", "docs/explanation/reliability.md"  # these pages state the number of entries
 OUTPUT = {"ph-barcode": "out.csv", "ph-segment": "out.pcd", "ph-distance": "out.csv",
-          "ph-vectorise": "out.csv"}
+          "ph-vectorise": "out.csv", "ph-cluster": "out.csv"}
 
 
 def named_options(text):
@@ -176,8 +176,8 @@ def states_count(page, count):
 
 
 def main():
-    runner = Runner(*sys.argv[1:5], peak=sys.argv[5])
-    words = sys.argv[6:]
+    runner = Runner(*sys.argv[1:6], peak=sys.argv[6])
+    words = sys.argv[7:]
     entries = [entry for entry in corpus.ENTRIES if all(word in entry.name for word in words)]
     of_row = collections.Counter()
     faults = skipped = 0

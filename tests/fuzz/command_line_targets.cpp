@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "apps/barcode/arguments/arguments.hpp"
+#include "apps/cluster/arguments/arguments.hpp"
 #include "apps/distance/arguments/arguments.hpp"
 #include "apps/segment/arguments/arguments.hpp"
 #include "apps/vectorise/arguments/arguments.hpp"
@@ -58,6 +59,7 @@ std::string help_of(std::optional<std::string> (*parse)(int, const char* const*,
 
 std::string help_of(std::string_view target) {
   if (target == "barcode_arguments") return help_of(&barcode::parse_arguments);
+  if (target == "cluster_arguments") return help_of(&cluster::parse_arguments);
   if (target == "distance_arguments") return help_of(&distance_program::parse_arguments);
   if (target == "segment_arguments") return help_of(&segment::parse_arguments);
   if (target == "vectorise_arguments") return help_of(&vectorise::parse_arguments);
@@ -66,6 +68,10 @@ std::string help_of(std::string_view target) {
 
 void run_barcode_arguments(std::string_view bytes) {
   check(words_of(bytes, "ph-barcode"), &barcode::parse_arguments);
+}
+
+void run_cluster_arguments(std::string_view bytes) {
+  check(words_of(bytes, "ph-cluster"), &cluster::parse_arguments);
 }
 
 void run_distance_arguments(std::string_view bytes) {

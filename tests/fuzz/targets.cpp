@@ -18,6 +18,7 @@ const std::vector<Target>& targets() {
     list.push_back({"png_chunks", &run_png});
     list.push_back({"tree_sums", &run_tree});
     list.push_back({"barcode_arguments", &run_barcode_arguments});
+    list.push_back({"cluster_arguments", &run_cluster_arguments});
     list.push_back({"distance_arguments", &run_distance_arguments});
     list.push_back({"distance_groups", &run_distance_groups});
     list.push_back({"segment_arguments", &run_segment_arguments});

@@ -32,6 +32,7 @@ void run_png(std::string_view bytes);
 void run_tree(std::string_view bytes);
 /// Takes the lines as the words of a command line.
 void run_barcode_arguments(std::string_view bytes);
+void run_cluster_arguments(std::string_view bytes);
 void run_distance_arguments(std::string_view bytes);
 void run_segment_arguments(std::string_view bytes);
 void run_vectorise_arguments(std::string_view bytes);

@@ -40,6 +40,7 @@ MAY_INCLUDE = {
                "plot report common",
     "python": "core metric image complex rips alpha facade clusters loops diagram vectors significance io plot segment "
               "report",
+    "cluster": "core metric rips clusters io segment common",
     "distance": "core metric diagram significance io common",
     "vectorise": "core image complex vectors diagram io report common",
     "segment_program": "core metric image components complex rips facade io plot segment report common",

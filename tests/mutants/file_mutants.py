@@ -34,6 +34,14 @@ MUTANTS = [
         ("outputs: the log behind standard output is replaced", "output-log", "kStandardOutput, files::", ""),
         ("outputs: pipes are never the same", "output-pipes", "mixed", "lost"),
     ], targets=["ph-barcode", "ph-segment", "ph-distance", "ph-vectorise"]),
+    *found_by("program_overwrites", [
+        ("clusters: labels replace the points", "cluster-inputs", "inputs.add(a.input(), a.format)",
+         "static_cast<void>(a)"),
+    ], targets=["ph-barcode", "ph-segment", "ph-cluster"]),
+    *found_by("ph_cluster_inputs", [
+        ("clusters: points that were left out have no rows", "cluster-rows", "dropped.size()", "0 * dropped.size()"),
+        ("clusters: the core distance is that of the nearest point", "cluster-core", "*last", "of_point[i].front()"),
+    ], targets=["ph-cluster"]),
     *found_by("ph_barcode_faults", [
         ("outputs: bits that set an ID are kept", "output-mode", "0777", "07777"),
     ], targets=["ph-barcode"]),

@@ -21,6 +21,7 @@ import samples  # noqa: E402
 DATA = TESTS.parent / "examples/data"
 BARCODE, SEGMENT = "apps/barcode/ph-barcode", "apps/segment/ph-segment"
 VECTORISE, DISTANCE = "apps/vectorise/ph-vectorise", "apps/distance/ph-distance"
+CLUSTER = "apps/cluster/ph-cluster"
 
 
 @dataclasses.dataclass
@@ -76,6 +77,10 @@ def of_examples():
         matching = [] if "sliced" in options else ["--matching", "out.csv"]
         yield [DISTANCE, "bars", *options, *matching, "-o", "out.json"]
     yield [DISTANCE, "bars", "bars", "--dim", "1", "--matrix", "out.npy"]
+    for options in ([], ["--method", "leaf", "--neighbours", "1"], ["--metric", "cosine", "--epsilon", "0.1"]):
+        yield [CLUSTER, "torus.csv", *options, "--scores", "-o", "out.npy", "--tree", "out.json"]
+    yield [CLUSTER, "stack.pcd", "--min-size", "50", "--scores", "-o", "out.ply"]
+    yield [CLUSTER, "correlations.csv", "--from-correlation", "--min-size", "2"]
 
 
 PROGRAMS = {"ph-barcode": BARCODE, "ph-segment": SEGMENT}

@@ -52,6 +52,17 @@ constexpr std::array kRows{
     ForeignOptions{"n-perm n-landmarks landmarks", "--subsample"},
     ForeignOptions{"sparse epsilon", "--approximate",
                    "did you mean '--approximate', which is sparse / (1 - sparse)?"},
+    ForeignOptions{"min-samples min-points min-pts", "--neighbours",
+                   "did you mean '--neighbours', which does not count the point itself? It is "
+                   "min_samples - 1"},
+    ForeignOptions{"neighbors n-neighbors k", "--neighbours"},
+    ForeignOptions{"min-cluster-size", "--neighbours", "did you mean '--min-size'?"},
+    ForeignOptions{"cluster-selection-method", "--neighbours", "did you mean '--method'?"},
+    ForeignOptions{"cluster-selection-epsilon eps", "--epsilon"},
+    ForeignOptions{"max-cluster-size", "--max-size"},
+    ForeignOptions{"allow-single-cluster", "--allow-single"},
+    ForeignOptions{"probabilities outlier-scores glosh", "--scores"},
+    ForeignOptions{"condensed-tree", "--neighbours", "did you mean '--tree'?"},
     ForeignOptions{"voxel-size leaf-size leaf voxel-resolution", "--voxel"},
     ForeignOptions{"cluster-tolerance eps tolerance", "--min-part",
                    "objects end at seams, and no distance separates them; --voxel sets the scale; "

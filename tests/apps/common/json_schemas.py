@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""json_schemas.py PH_BARCODE PH_SEGMENT PH_VECTORISE PH_DISTANCE: the JSON of the programs conforms
+"""json_schemas.py PH_BARCODE PH_SEGMENT PH_VECTORISE PH_DISTANCE PH_CLUSTER: the JSON of the programs conforms
 to docs/reference/schemas, and the schemas describe each member that the programs write. Without
 python3-jsonschema, the test is skipped."""
 import copy
@@ -49,9 +49,9 @@ def checker(name):
 
 
 class Tester:
-    def __init__(self, folder, barcode, segment, vectorise, distance):
+    def __init__(self, folder, barcode, segment, vectorise, distance, cluster):
         self.folder, self.barcode, self.segment = folder, barcode, segment
-        self.vectorise, self.distance = vectorise, distance
+        self.vectorise, self.distance, self.cluster = vectorise, distance, cluster
         self.checkers = {file.name.partition(".")[0]: checker(file.name.partition(".")[0])
                          for file in SCHEMAS.glob("*.schema.json")}
         self.count, self.failures, self.seen = 0, 0, set()
@@ -174,6 +174,21 @@ def test_distances(t):
             t.check("ph-distance-matching", (t.folder / "m.json").read_text(), (inputs, *options))
 
 
+def test_clusters(t):
+    (t.folder / "copies.csv").write_text("0,0\n" * 9 + "5,5\n" * 9 + "nan,1\n")
+    (t.folder / "some.txt").write_text("0 1 1\n1 2 1\n3 4 2\n")
+    (t.folder / "births.txt").write_text("0.5 1 2\n1 0 2\n2 2 0\n")
+    for inputs in ([DATA / "two_circles.csv"], [DATA / "two_circles.csv", "--metric", "minkowski:3",
+                                                  "--method", "leaf"],
+                   ["copies.csv", "--nan", "drop", "--epsilon", "0.5", "--max-size", "100"],
+                   ["some.txt", "--format", "sparse", "--min-size", "2", "--allow-single"],
+                   ["births.txt", "--diagonal", "births", "--min-size", "2"]):
+        for options in ([], ["--scores"]):
+            t.run(t.cluster, *inputs, *options, "-o", "l.json", "--tree", "t.json", "--quiet")
+            t.check("ph-cluster", (t.folder / "l.json").read_text(), (inputs, *options))
+            t.check("ph-cluster-tree", (t.folder / "t.json").read_text(), (inputs, *options))
+
+
 def test_that_faults_are_seen(t):
     """Corrupted documents must be refused, because a schema that accepts everything would test
     nothing."""
@@ -189,7 +204,11 @@ def test_that_faults_are_seen(t):
               lambda v: v["bars"][-1]["loops"][0].pop("vertices"), lambda v: v.pop("complex"))),
             ("ph-vectorise-fit", (t.folder / "fit.json").read_text(),
              (lambda v: v["blocks"][0].pop("sigma"), lambda v: v["blocks"][0].pop("dim"))),
-            ("ph-distance", sliced, (lambda v: v.pop("directions"),))):
+            ("ph-distance", sliced, (lambda v: v.pop("directions"),)),
+            ("ph-cluster", (t.folder / "l.json").read_text(),
+             (lambda v: v.pop("labels"), lambda v: v["labels"].append(-2), lambda v: v.pop("outlier_scores"))),
+            ("ph-cluster-tree", (t.folder / "t.json").read_text(),
+             (lambda v: v["clusters"][0].pop("mass"), lambda v: v["clusters"][0].update(size=0)))):
         good = json.loads(text)
         assert t.checkers[schema].is_valid(good), schema
         for number, spoil in enumerate(spoils):
@@ -200,12 +219,13 @@ def test_that_faults_are_seen(t):
 
 def main():
     with tempfile.TemporaryDirectory() as folder:
-        t = Tester(Path(folder), *map(lambda path: str(Path(path).resolve()), sys.argv[1:5]))
+        t = Tester(Path(folder), *map(lambda path: str(Path(path).resolve()), sys.argv[1:6]))
         test_barcodes(t)
         test_others(t)
         test_segmentations(t)
         test_fits(t)
         test_distances(t)
+        test_clusters(t)
         test_that_faults_are_seen(t)
         unseen = set(t.checkers) - t.seen
         print(f"{t.count} outputs, {t.failures} faults" + "".join(f"\n{name}: no output was held against it"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""option_inputs.py PH_BARCODE PH_SEGMENT [TABLE.csv [OPTION...]]: tests each option of each program
+"""option_inputs.py PH_BARCODE PH_SEGMENT PH_CLUSTER [TABLE.csv [OPTION...]]: tests each option of each program
 with each kind of input. It runs the program with and without the option. One of these statements
 must be true:
 
@@ -32,6 +32,7 @@ for _folder in ("../../support", "manual"):
     sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), _folder))
 import described  # noqa: E402
 import option_inputs_barcode  # noqa: E402
+import option_inputs_cluster  # noqa: E402
 import option_inputs_segment  # noqa: E402
 from program import has_page  # noqa: E402
 
@@ -260,7 +261,7 @@ def pairs_of(runs, program, suite):
             sys.exit(f"{program}: {option} {placeholder}: add a row with a value of it to rows() in "
                      f"{suite.__name__}.py, or a sample of {placeholder} to SAMPLES")
         rows.setdefault(option, Row(option, *(value or ()), beside=suite.BESIDE))
-    if not has_page(program):
+    if "--report" in listed and not has_page(program):
         print(f"skipped: {os.path.basename(program)} --report: this build has no page")
         del listed["--report"]
     for kind in suite.inputs(Input, program):
@@ -269,15 +270,16 @@ def pairs_of(runs, program, suite):
 
 
 def main():
-    runs, programs = Runs(), sys.argv[1:3]
-    pairs = [pair for program, suite in zip(programs, (option_inputs_barcode, option_inputs_segment))
+    runs, programs = Runs(), sys.argv[1:4]
+    suites = option_inputs_barcode, option_inputs_segment, option_inputs_cluster
+    pairs = [pair for program, suite in zip(programs, suites)
              for pair in pairs_of(runs, os.path.abspath(program), suite)
-             if pair.option in sys.argv[4:] or not sys.argv[4:]]
+             if pair.option in sys.argv[5:] or not sys.argv[5:]]
     with concurrent.futures.ThreadPoolExecutor(RUNS_AT_ONCE) as pool:
         results = list(pool.map(Pair.classify, pairs))
     counts = collections.Counter(result for result, _ in results)
-    if len(sys.argv) > 3:
-        with open(sys.argv[3], "w", newline="", encoding="utf-8") as file:
+    if len(sys.argv) > 4:
+        with open(sys.argv[4], "w", newline="", encoding="utf-8") as file:
             table = csv.writer(file)
             table.writerow(["program", "option", "input", "result"])
             for pair, (result, _) in zip(pairs, results):

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""program_descriptors.py PH_BARCODE PH_DISTANCE PH_VECTORISE PH_SEGMENT: names like /dev/fd/4 stand
+"""program_descriptors.py PH_BARCODE PH_DISTANCE PH_VECTORISE PH_SEGMENT
+PH_CLUSTER: names like /dev/fd/4 stand
 for descriptors that the caller opened, never for the program's own. Data already written to a
 descriptor are kept."""
 import os
@@ -11,7 +12,7 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../
 from option_inputs_segment import HEIGHT, WIDTH, depth_png, depths, pcd, points_of  # noqa: E402
 from program import SQUARE, SQUARE_CSV, FolderTest  # noqa: E402
 
-BARCODE = DISTANCE = VECTORISE = SEGMENT = None
+BARCODE = DISTANCE = VECTORISE = SEGMENT = CLUSTER = None
 OWN = range(3, 9)  # the descriptors that the programs open first
 
 
@@ -47,6 +48,7 @@ class Descriptors(FolderTest):
                 [DISTANCE, "a.csv", "b.csv", "--groups", "{}"],
                 [VECTORISE, "{}"], [VECTORISE, "a.csv", "--fit", "{}"],
                 [VECTORISE, "a.csv", "--fitted", "{}"],
+                [CLUSTER, "{}"], [CLUSTER, "p.csv", "-o", "{}"], [CLUSTER, "p.csv", "--tree", "{}"],
                 [SEGMENT, "{}"], [SEGMENT, "s.pcd", "-o", "{}"],
                 [SEGMENT, "d.png", "--camera", "{}"],
                 [SEGMENT, "--depth", "d.png", "--color", "{}", "--camera", "kinect-v1"],
@@ -134,5 +136,5 @@ class Descriptors(FolderTest):
 
 
 if __name__ == "__main__":
-    BARCODE, DISTANCE, VECTORISE, SEGMENT = (os.path.abspath(sys.argv.pop(1)) for _ in range(4))
+    BARCODE, DISTANCE, VECTORISE, SEGMENT, CLUSTER = (os.path.abspath(sys.argv.pop(1)) for _ in range(5))
     unittest.main(verbosity=2)

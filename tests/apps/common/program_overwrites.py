@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""program_overwrites.py PH_BARCODE PH_SEGMENT: an output never replaces an input unless --force
+"""program_overwrites.py PH_BARCODE PH_SEGMENT PH_CLUSTER: an output never replaces an input unless --force
 allows it, and never replaces another output, whatever names are used for the files."""
 import json
 import os
@@ -13,7 +13,7 @@ from option_inputs_segment import CAMERA, FOCAL, HEIGHT, WIDTH, depth_png, depth
 from files import RGB, array, png, two_files  # noqa: E402
 from program import FolderTest, has_page  # noqa: E402
 
-BARCODE = SEGMENT = None
+BARCODE = SEGMENT = CLUSTER = None
 POINTS = b"0 0\n1 0\n1 1\n0 1.25\n"
 ALIASES = ("{}", "./{}", "folder/../{}", "link-{}", "hard-{}")
 
@@ -62,6 +62,24 @@ class Overwrites(FolderTest):
                     if option == "--report" and not has_page(BARCODE):
                         self.skipTest("reports are not built in")
                     self.refused(BARCODE, option, inputs, *arguments)
+
+    def test_ph_cluster(self):
+        inputs = {"p.csv": POINTS, "t.json": POINTS}
+        for name, content in inputs.items():
+            self.write(name, content)
+        for alias in ALIASES:
+            for option, arguments in (
+                    ("--output", ["p.csv", "-o", alias.format("p.csv")]),
+                    ("--tree", ["t.json", "--format", "points", "--tree", alias.format("t.json")]),
+                    ("is also written by --output", ["p.csv", "-o", "x.csv", "--tree", "./x.csv", "--force"])):
+                with self.subTest(arguments=arguments):
+                    self.refused(CLUSTER, option, inputs, *arguments)
+        with open(self.path("p.csv"), "ab") as file:
+            run = subprocess.run([CLUSTER, "p.csv", "--dry-run"], cwd=self.folder, stdout=file,
+                                 stderr=subprocess.PIPE, timeout=60)
+        self.assertEqual((run.returncode, self.read_bytes("p.csv")), (64, POINTS), run.stderr)
+        run = self.run_in_folder(CLUSTER, "p.csv", "-o", "p.csv", "--force")
+        self.assertEqual((run.returncode, self.read("p.csv")), (0, "label\n" + "-1\n" * 4), run.stderr)
 
     def test_ph_barcode_values(self):
         self.write("m.off", b"OFF\n2 1 0\n0 0 0\n1 0 0\n2 0 1\n")
@@ -263,5 +281,5 @@ class Overwrites(FolderTest):
 
 
 if __name__ == "__main__":
-    BARCODE, SEGMENT = (os.path.abspath(sys.argv.pop(1)) for _ in range(2))
+    BARCODE, SEGMENT, CLUSTER = (os.path.abspath(sys.argv.pop(1)) for _ in range(3))
     unittest.main(verbosity=2)

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""program_stack.py PH_BARCODE PH_DISTANCE PH_VECTORISE PH_SEGMENT: the programs need a stack of 128
+"""program_stack.py PH_BARCODE PH_DISTANCE PH_VECTORISE PH_SEGMENT
+PH_CLUSTER: the programs need a stack of 128
 KiB. With less, they end at once with a message."""
 import os
 import random
@@ -12,7 +13,7 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../
 from option_inputs_segment import HEIGHT, WIDTH, depth_png, depths, pcd, points_of  # noqa: E402
 from program import FolderTest, files  # noqa: E402
 
-BARCODE = DISTANCE = VECTORISE = SEGMENT = None
+BARCODE = DISTANCE = VECTORISE = SEGMENT = CLUSTER = None
 KIB = 1024
 LEAST = 128
 
@@ -47,6 +48,7 @@ class Stacks(FolderTest):
                 [BARCODE, "i.npy", "--plot", "x.png", "--report", "x.html"],
                 [BARCODE, "i.npy", "--engine", "twist"], [BARCODE, "i.npy", "--slab-layers", "2"],
                 [DISTANCE, "a.csv", "a.csv"], [VECTORISE, "a.csv"],
+                [CLUSTER, "p.csv", "--scores", "--tree", "t.json"],
                 [SEGMENT, "s.pcd", "-o", "-", "--report", "x.html"],
                 [SEGMENT, "s.pcd", "-o", "-", "--method", "supervoxels"],
                 [SEGMENT, "d.png", "--camera", "kinect-v1", "-o", "-"]):
@@ -65,5 +67,5 @@ class Stacks(FolderTest):
 
 
 if __name__ == "__main__":
-    BARCODE, DISTANCE, VECTORISE, SEGMENT = (os.path.abspath(sys.argv.pop(1)) for _ in range(4))
+    BARCODE, DISTANCE, VECTORISE, SEGMENT, CLUSTER = (os.path.abspath(sys.argv.pop(1)) for _ in range(5))
     unittest.main(verbosity=2)

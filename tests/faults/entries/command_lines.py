@@ -196,6 +196,32 @@ SEGMENT = [
     (50, ["another.pcd"], "found 'out.pcd', expected a folder (FOLDER/) or a *"),
 ]
 
+CLUSTER = [
+    (49, ["--min-size", "1"], "--min-size"),
+    (49, ["--min-size", "2.5"], "--min-size"),
+    (49, ["--neighbours", "-1"], "--neighbours"),
+    (49, ["--neighbours", "4"], "at most the number of other points, 3"),
+    (49, ["--epsilon", "nan"], "--epsilon"),
+    (49, ["--epsilon", "inf"], "--epsilon"),
+    (49, ["--epsilon=-1"], "--epsilon"),
+    (49, ["--max-size", "4"], "at least --min-size (5)"),
+    (49, ["--max-size", "9", "--method", "leaf"], "found --method leaf"),
+    (49, ["--method", "eon"], "did you mean 'eom'"),
+    (49, ["--metric", "minkowski"], "minkowski:P"),
+    (49, ["--format", "png"], "--format"),
+    (49, ["--output-format", "ply"], "expected csv, json or npy"),
+    (49, ["--tree", "x.txt"], "found x.txt, expected a file name that ends in .json or .csv"),
+    (49, ["--raw-type", "int16"], "need --raw-points"),
+    (49, ["--columns", "z"], "--columns"),
+    (49, ["--diagonal", "births", "--neighbours", "2"], "cannot be combined with --diagonal births"),
+    (50, ["--min-samples", "5"], "min_samples - 1"),
+    (50, ["--min-cluster-size", "5"], "did you mean '--min-size'"),
+    (50, ["--min-size"], "--min-size"),
+    (50, ["--scores=perhaps"], "--scores"),
+    (50, ["square.txt"], "found 2 inputs, expected one"),
+    (57, ["--tree", "out.csv"], "also written by --output"),
+]
+
 
 def entries():
     for row, options, words in BARCODE:
@@ -207,10 +233,13 @@ def entries():
     for row, options, words in SEGMENT:
         yield Entry(row, "ph-segment " + " ".join(options), "ph-segment", ("cloud.xyz", *options), 64,
                     ".", words, CLOUD)
+    for row, options, words in CLUSTER:
+        yield Entry(row, "ph-cluster " + " ".join(options), "ph-cluster", ("square.txt", *options), 64,
+                    ".", words, SQUARE_FILE)
     yield Entry(49, "--intrinsics without a focal length", "ph-segment",
                 ("--depth", "d.png", "--intrinsics", "0,1,0,0"), 64, "found focal lengths 0 and 1",
                 "--intrinsics", {"d.png": sample("png", "depth.png")})
-    for program in ("ph-barcode", "ph-segment"):
+    for program in ("ph-barcode", "ph-segment", "ph-cluster"):
         yield Entry(50, f"{program} without input", program, (), 64, "INPUT", "INPUT")
     yield Entry(50, "--max-dim at the end", "ph-barcode", ("square.txt", "-o", "x.csv", "--max-dim"),
                 64, "the value is missing", "--max-dim", SQUARE_FILE)
