@@ -77,6 +77,12 @@ class Hierarchy:
         points = data if len(kept) == n else data[kept]
         if self._has_distances and len(kept) < n:
             points = points[:, kept]
+        is_plain = alpha == 1 and reading is as_they_are and len(kept) == n
+        if is_plain and not self._has_distances:  # one search finds the births and the edges
+            self.tree = cluster_tree(points, min_size, complex="rips", threshold=np.inf,
+                                     weights="core", core_neighbors=k, **how)
+            self.births = self.tree.births
+            return
         if _arrays.is_sparse(points):
             births = np.minimum(_core_of_stored(points, k), farthest)
         else:
@@ -90,7 +96,7 @@ class Hierarchy:
         if len(kept) < n:
             self.births = np.full(n, np.inf)
             self.births[kept] = births
-        if len(kept) < n or alpha != 1 or reading is not as_they_are:
+        if not is_plain or len(kept) < n:
             # Births are multiplied and divided as well, so that rounding keeps the order.
             tree = of_forest(reading(self.births * alpha / alpha), reading(tree.values / alpha),
                              kept[tree.edges], min_size, "inverse")
