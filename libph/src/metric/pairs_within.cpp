@@ -13,7 +13,6 @@
 #include "libph/src/metric/neighbour_search.hpp"
 #include "libph/src/metric/plain_squares.hpp"
 #include "ph/detail/metric/metric.hpp"
-#include "ph/detail/metric/row_distances.hpp"
 #include "ph/error.hpp"
 
 namespace ph {
@@ -81,19 +80,6 @@ void visit_by_tree(const PointMetric& metric, double radius, const Visit& visit,
       ->pairs_within(radius, visit, context);
 }
 
-void visit_by_rows(const PointMetric& metric, double radius, const Visit& visit,
-                   const RunContext& context) {
-  const RowDistances<PointMetric> distances(metric, &context.memory);
-  std::pmr::vector<double> row(static_cast<std::size_t>(distances.row_capacity()), 0.0,
-                               &context.memory);
-  for (Index i = 0; i < metric.size(); ++i) {
-    context.poll();
-    distances(i, row.data());
-    for (Index j = 0; j < i; ++j)
-      if (const double d = row[static_cast<std::size_t>(j)]; d <= radius) visit(j, i, d);
-  }
-}
-
 }  // namespace
 
 void for_each_pair_within(PointsView points, double radius, const Visit& visit,
@@ -102,16 +88,12 @@ void for_each_pair_within(PointsView points, double radius, const Visit& visit,
     throw Error(ErrorKind::usage, fmt::format("radius: found {}, expected a number >= 0", radius));
   }
   const PointMetric metric(points);
-  // Measurements show that computing all pairs of so few points takes little time, because many
-  // distances are computed at once. For some inputs, a tree would take longer.
-  constexpr Index few = 1 << 14;
+  if (points.rows() == 0) return;
   // The squares of smaller distances may lose digits to underflow, and all points at smaller
   // distances would be in one cube.
   constexpr double tiny = 1e-139;
   const bool has_cubes = points.cols() == 0 || (points.cols() <= 3 && radius >= tiny);
-  const auto visit_all = has_cubes              ? visit_by_cubes
-                         : points.rows() <= few ? visit_by_rows
-                                                : visit_by_tree;
+  const auto visit_all = has_cubes ? visit_by_cubes : visit_by_tree;
   visit_all(metric, radius, visit, context);
 }
 
