@@ -73,7 +73,7 @@ approx_min_span_tree, core_dist_n_jobs, cluster_selection_method, allow_single_c
 match_reference_implementation, cluster_selection_epsilon_max, kwargs
         As in `HDBSCAN`.
     gen_min_span_tree : bool
-        Whether the last result is the spanning forest.
+        If True, the last result is the spanning forest; else it is None.
 
     Returns
     -------
