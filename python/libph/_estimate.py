@@ -2,6 +2,7 @@
 """Estimates of the memory and work of a computation."""
 from __future__ import annotations
 
+import warnings
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
@@ -9,6 +10,7 @@ import numpy as np
 
 from . import _arrays, _core, _options
 from ._compute import alpha, cubical, rips
+from ._images import SpatialImage
 from ._requests import PointImage, Request, alpha_request, cubical_request, rips_request
 from ._options import arguments_of, signature_of
 from ._results import in_units, spaced
@@ -66,10 +68,23 @@ def request_of(data: Any, complex: Any, options: dict[str, Any]) -> Request:
     if complex == "alpha":
         return alpha_request(_arguments(alpha, data, options))
     is_image = complex == "cubical" or (complex is None and (
-        isinstance(data, PointImage) or (not _arrays.is_sparse(data) and _axes_of(data) > 2)))
+        isinstance(data, (PointImage, SpatialImage))
+        or (not _arrays.is_sparse(data) and _axes_of(data) > 2)))
     if is_image:
         return cubical_request(_arguments(cubical, data, options))
+    if complex is None:
+        _warn_of_a_picture(data)
     return rips_request(_arguments(rips, data, options))
+
+
+def _warn_of_a_picture(data: Any) -> None:
+    """Warns of an array of points that has the type and the extents of a picture."""
+    few = 16  # coordinates, which points may well have
+    if isinstance(data, np.ndarray) and data.dtype in (np.uint8, np.bool_) and data.ndim == 2 \
+            and min(data.shape) > few:
+        rows, columns = data.shape
+        warnings.warn(f"data: read as {rows} points of R^{columns}; the array has the type of a "
+                      "picture, uint8 or bool; complex='cubical' takes it as an image", stacklevel=5)
 
 
 def _arguments(function: Callable[..., Any], data: Any, options: dict[str, Any]) -> dict[str, Any]:
@@ -105,8 +120,8 @@ def estimate(data: Any, *, complex: str | None = None, **options: Any) -> Estima
     data : array_like, sparse matrix or PointImage
         As in `rips`, `cubical` or `alpha`.
     complex : {None, "rips", "cubical", "alpha"}
-        Which complex to use. Default: cubical for three axes or more and for a PointImage, else
-        rips.
+        Which complex to use. Default: cubical for three axes or more, for a `SpatialImage`, which
+        `read` returns, and for a `PointImage`; else rips.
     **options
         All keywords of that function.
 

@@ -116,8 +116,8 @@ def read(path: str | os.PathLike[str], format: str | None = None, *,
     -------
     ndarray, coo_array, Simplices, Boundary or Mesh
         Points (n, d), distances (n, n), an image, or sparse distances, depending on the file. An
-        image whose file (NIfTI, NRRD, MetaImage, VTI) states the places of its voxels is a
-        `SpatialImage`.
+        image is a `SpatialImage`, which functions for any kind of data take as an image. It has an
+        affine map if the file (NIfTI, NRRD, MetaImage, VTI) states the places of its voxels.
     """
     return _answer(found_by(**locals()))
 
@@ -209,9 +209,11 @@ def _result_in(path: bytes) -> str:
 
 def _answer(found: dict[str, Any]) -> Any:
     kind = found["kind"]
-    if kind == "image" and found["affine"] is not None:
-        return SpatialImage(np.asarray(found[kind]), [*found["affine"], [0, 0, 0, 1]])
-    if kind in ("points", "distances", "image"):
+    if kind == "image":
+        affine = found["affine"]
+        return SpatialImage(np.asarray(found[kind]),
+                            None if affine is None else [*affine, [0, 0, 0, 1]])
+    if kind in ("points", "distances"):
         return np.asarray(found[kind])
     if kind == "sparse":
         from scipy.sparse import coo_array
