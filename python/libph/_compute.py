@@ -237,7 +237,8 @@ def cubical(image: Any, *, construction: str = "vertices", superlevel: bool = Fa
     periodic : sequence of int, bool or "all"
         The periodic axes; True or "all": all axes.
     threshold : float, optional
-        The largest value at which cells enter.
+        The largest value at which cells enter. With `superlevel`, ``threshold=-100`` lets the voxels
+        of value 100 or more enter.
     max_dim : int, optional
         The highest dimension of homology. Default: all.
     min_dim : int

@@ -89,6 +89,8 @@ def nifti_bytes(image: Any, affine: ArrayLike | None) -> bytes:
     """The image as a NIfTI-1 file, see `write_nifti`."""
     rows = affine_of(image) if affine is None else _matrix(affine)[:3]
     array = _arrays.as_array(image, "image")
+    if array.dtype == np.bool_:
+        array = array.astype(np.uint8)
     code = _NIFTI_TYPES.get(array.dtype.str[1:])
     if code is None:
         raise UsageError(f"image: found numbers of type {array.dtype}, expected one of "
@@ -119,8 +121,8 @@ def write_nifti(path: str | os.PathLike[str], image: ArrayLike, affine: ArrayLik
     path : path
         The file.
     image : array_like
-        1 to 7 axes, integers or floats of at most 8 bytes, such as `Barcode.labels`. Masked voxels
-        are written as NaN.
+        1 to 7 axes, integers or floats of at most 8 bytes, such as `Barcode.labels`, or bools, such
+        as `Barcode.voxels`, which become 0 and 1. Masked voxels are written as NaN.
     affine : array_like (4, 4), optional
         Maps (i, j, k, 1) to (x, y, z, 1). Default: the affine map of a `SpatialImage`; without one,
         the file states none.
@@ -133,4 +135,8 @@ def write_nifti(path: str | os.PathLike[str], image: ArrayLike, affine: ArrayLik
     OutputError
         If the file cannot be written.
     """
-    _run.run(_core.write_file, _options.path_of(path), nifti_bytes(image, affine), options={})
+    file = _options.path_of(path)
+    if not file.lower().endswith(b".nii"):
+        raise UsageError(f"path: found {os.fsdecode(file)!r}, expected a name that ends in .nii; "
+                         "gzip makes .nii.gz of the file")
+    _run.run(_core.write_file, file, nifti_bytes(image, affine), options={})

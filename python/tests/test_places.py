@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Tests where holes are: tables with places, label images, and images with an affine map."""
 import pickle
+import warnings
 
 import numpy as np
 import pytest
@@ -188,6 +189,43 @@ def test_images_of_nibabel():
     assert bars == ph.cubical(VOLUME) and np.array_equal(bars.affine, AFFINE)
 
 
+def test_a_mask_keeps_its_place(tmp_path):
+    bars = ph.cubical(ph.SpatialImage(VOLUME, AFFINE), representatives="voxels")
+    mask = bars.voxels(0)
+    ph.write_nifti(tmp_path / "mask.nii", mask)
+    back = ph.read(tmp_path / "mask.nii")
+    assert np.array_equal(back, mask) and np.array_equal(back.affine, AFFINE)
+    assert bars.voxels(0).dtype == np.bool_ and back.max() == 1
+
+
+def test_pictures_are_images(tmp_path):
+    """Functions for any kind of data take a picture that was read as an image."""
+    picture = (np.arange(400).reshape(20, 20) * 7 % 251).astype(np.uint8)
+    (tmp_path / "p.pgm").write_bytes(b"P5 20 20 255\n" + picture.tobytes())
+    image = ph.read(tmp_path / "p.pgm")
+    assert type(image) is ph.SpatialImage and image.affine is None
+    tree = ph.merge_tree(image)
+    assert len(tree.births) == 400
+    assert ph.estimate(image).engine == ph.estimate(picture, complex="cubical").engine
+    assert ph.cluster_tree(image, 5).scale == "linear"
+    with pytest.warns(UserWarning, match=r"20 points of R\^20.*complex='cubical'"):
+        ph.merge_tree(picture)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        ph.merge_tree(picture.astype(float))
+        ph.merge_tree(picture, complex="rips")
+        ph.merge_tree(picture[:, :3])
+
+
+def test_bars_chosen_by_bools():
+    bars = ph.cubical(VOLUME)
+    finite = bars[bars.deaths < np.inf]
+    assert len(finite) == len(bars) - 1 and np.isfinite(finite.deaths).all()
+    assert bars[np.ones(len(bars), dtype=bool)] == bars
+    with pytest.raises(IndexError, match=r"shape \(2,\), expected one per bar"):
+        bars[np.array([True, False])]
+
+
 @pytest.mark.parametrize("dtype", ["u1", "i2", ">i4", "f4", ">f8", "i1", "u2", "u4", "i8", "u8"])
 def test_nifti_there_and_back(dtype, tmp_path):
     image = (100 * VOLUME).astype(dtype)
@@ -209,4 +247,6 @@ def test_nifti_that_is_refused(tmp_path):
                            (None, "found NoneType, expected an array")):
         with pytest.raises(ph.Error, match=f"image: .*{message}"):
             ph.write_nifti(tmp_path / "v.nii", image)
+    with pytest.raises(ph.UsageError, match="ends in .nii; gzip"):
+        ph.write_nifti(tmp_path / "v.nii.gz", VOLUME)
     assert not list(tmp_path.iterdir())

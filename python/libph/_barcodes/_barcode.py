@@ -138,16 +138,21 @@ class Barcode(Cells, Summaries, Output, Sequence[Bar]):
     @overload
     def __getitem__(self, i: int) -> Bar: ...
     @overload
-    def __getitem__(self, i: slice) -> Barcode: ...
+    def __getitem__(self, i: slice | NDArray[np.bool_]) -> Barcode: ...
 
-    def __getitem__(self, i: int | slice) -> Bar | Barcode:
+    def __getitem__(self, i: int | slice | NDArray[np.bool_]) -> Bar | Barcode:
+        if isinstance(i, np.ndarray) and i.dtype == np.bool_:
+            if i.shape != (len(self),):
+                raise IndexError(f"bars[...]: found an array of bools of shape {i.shape}, expected "
+                                 f"one per bar, ({len(self)},)")
+            return self._selected(np.flatnonzero(i))
         if isinstance(i, slice):
             return self._selected(np.sort(np.arange(len(self))[i]))
         try:
             place = operator.index(i)
         except TypeError:
-            raise TypeError(f"bars[...]: found {type(i).__name__}, expected a whole number or a "
-                            "slice; dgm(1) is the array of the bars of H1, filter() chooses bars"
+            raise TypeError(f"bars[...]: found {type(i).__name__}, expected a whole number, a "
+                            "slice or one bool per bar; dgm(1) is the array of the bars of H1, filter() chooses bars"
                             ) from None
         if not -len(self) <= place < len(self):
             known = f", expected an index from {-len(self)} to {len(self) - 1}" if len(self) else ""
@@ -216,7 +221,7 @@ class Barcode(Cells, Summaries, Output, Sequence[Bar]):
         """The p-value of each bar, if the barcode was read from a file with p-values; else None.
 
         ``ph-barcode --significance`` writes such files. NaN: the bar has no p-value.
-        `significance` computes p-values.
+        The function ``ph.p_values(bars)`` computes p-values.
         """
         values = np.asarray(self._bars.p_values)
         return values if values.size else None

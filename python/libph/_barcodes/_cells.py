@@ -100,21 +100,23 @@ class Cells:
                                    "of an image computed with representatives='voxels'")
         return tuple(shape)
 
-    def voxels(self, i: int) -> NDArray[np.bool_]:
+    def voxels(self, i: int) -> SpatialImage:
         """A mask of the image: the component or hollow of bar i.
 
-        For bars of other dimensions, which have a cycle instead, the mask is empty.
+        For bars of other dimensions, which have a cycle instead, the mask is empty. The mask has
+        the `affine` of the barcode.
         """
         mask = np.zeros(self._require_voxels(), dtype=bool)
         mask.reshape(-1)[np.asarray(self._bars.voxels(self._place(i)))] = True
-        return mask
+        return SpatialImage(mask, self.affine)
 
     def labels(self, dim: int) -> SpatialImage:
         """A label image: the voxels of bar i of a dimension have the label i + 1, all others 0.
 
         The sets of voxels of two bars are nested or disjoint. A voxel of several bars has the label
         of the smallest set. A component that never dies has all voxels connected with it;
-        ``bars.filter`` leaves such bars out. The image has the `affine` of the barcode.
+        ``bars[bars.deaths < np.inf]`` leaves such bars out. The image has the `affine` of the
+        barcode.
 
         Raises
         ------
