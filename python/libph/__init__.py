@@ -56,6 +56,7 @@ _NAMES = {
     "_parts": "CloudPart ImageLoops ImagePart cloud_part image_part join_parts",
     "_points": "Subsample collapse core_distances delay_embedding distance_to_measure farthest_points "
                "point_image",
+    "_real_clusters": "ClusterSignificance ClusterStability",
     "_report": "Report report",
     "_requests": "PointImage",
     "_run": "limits",

@@ -15,6 +15,7 @@ from ._images import SpatialImage, write_nifti
 from ._parts import CloudPart, ImageLoops, ImagePart, cloud_part, image_part, join_parts
 from ._points import (Subsample, collapse, core_distances, delay_embedding, distance_to_measure,
                       farthest_points, point_image)
+from ._real_clusters import ClusterSignificance, ClusterStability
 from ._report import Report, report
 from ._requests import PointImage
 from ._run import limits
@@ -30,7 +31,7 @@ from ._vectors._kernels import diagram_kernels
 
 __all__ = [
     "Band", "Bar", "Barcode", "Barycentre", "Boundary", "Cancelled", "Chain", "CloudPart",
-    "ClusterTree", "Clusters",
+    "ClusterSignificance", "ClusterStability", "ClusterTree", "Clusters",
     "DataError", "Error", "Estimate", "ImageLoops", "ImagePart", "InternalError", "LabelTracker",
     "Loop", "Matching", "MemoryLimitError", "MergeTree", "Mesh", "MissingInputError", "NotBuiltIn",
     "Objects", "OutputError", "PermutationTest", "PiecewiseLinear", "PointImage", "Report",

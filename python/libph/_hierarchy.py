@@ -56,6 +56,10 @@ class Hierarchy:
     tree : ClusterTree
     births : ndarray
         The core distance of each row, before `reading`; infinite if it never enters.
+    k : int
+        As given.
+    has_distances : bool
+        True if `data` is a matrix of distances.
     """
 
     def __init__(self, data: Any, kept: _Integers, k: int, min_size: int, *,
@@ -63,22 +67,23 @@ class Hierarchy:
                  farthest: float = np.inf, reading: Callable[[_Numbers], _Numbers] = as_they_are,
                  threads: int | None = None) -> None:
         self._data = data  # for new rows
-        self._k = k
+        self.k = k
         self._metric = metric
         self._p = p
         self._alpha = alpha
+        self._farthest = farthest
         self._reading = reading
         self._options = {} if threads is None else {"threads": threads}
         how: dict[str, Any] = {"metric": metric, **self._options}
         if isinstance(metric, str) and metric == "minkowski":
             how["minkowski_p"] = p
-        self._has_distances = isinstance(metric, str) and metric == "precomputed"
+        self.has_distances = isinstance(metric, str) and metric == "precomputed"
         n = data.shape[0]
         points = data if len(kept) == n else data[kept]
-        if self._has_distances and len(kept) < n:
+        if self.has_distances and len(kept) < n:
             points = points[:, kept]
         is_plain = alpha == 1 and reading is as_they_are and len(kept) == n
-        if is_plain and not self._has_distances:  # one search finds the births and the edges
+        if is_plain and not self.has_distances:  # one search finds the births and the edges
             self.tree = cluster_tree(points, min_size, complex="rips", threshold=np.inf,
                                      weights="core", core_neighbors=k, **how)
             self.births = self.tree.births
@@ -102,6 +107,17 @@ class Hierarchy:
                              kept[tree.edges], min_size, "inverse")
         self.tree = tree
 
+    def rows(self, chosen: _Integers) -> Any:
+        """Some rows of the data: points, or the distances between them."""
+        rows = self._data[chosen]
+        return rows[:, chosen] if self.has_distances else rows
+
+    def of(self, data: Any, k: int, min_size: int, threads: int) -> Hierarchy:
+        """The hierarchy of other data, with the same distances between rows."""
+        return Hierarchy(data, np.arange(data.shape[0]), k, min_size, metric=self._metric,
+                         p=self._p, alpha=self._alpha, farthest=self._farthest,
+                         reading=self._reading, threads=threads)
+
     def attachments(self, rows: Any) -> tuple[_Integers, _Numbers]:
         """For each new row, the row of the hierarchy that it reaches first, and the value at which
         it does; -1 and inf if it reaches none.
@@ -112,16 +128,16 @@ class Hierarchy:
         """
         fitted = np.flatnonzero(np.isfinite(self.births))
         births = self.births[fitted] * self._alpha
-        rank = self._k + 1
-        if isinstance(self._metric, str) and not self._has_distances:
+        rank = self.k + 1
+        if isinstance(self._metric, str) and not self.has_distances:
             points = np.ascontiguousarray(self._data[fitted])
-            core = np.asarray(_run.run(_core.core_distances_among, points, rows, self._k,
+            core = np.asarray(_run.run(_core.core_distances_among, points, rows, self.k,
                                        self._metric, self._p, options=self._options))
             found = _run.run(_core.attachments, points, births, rows, core * self._alpha,
                              self._metric, self._p, options=self._options)
             joined, values = (np.asarray(block) for block in found)
         else:
-            distances = rows[:, fitted] if self._has_distances else np.array(
+            distances = rows[:, fitted] if self.has_distances else np.array(
                 [[self._metric(x, y) for y in self._data[fitted]] for x in rows]
             ).reshape(len(rows), -1)
             core = np.zeros(len(rows)) if rank == 1 else np.full(len(rows), np.inf)

@@ -6,11 +6,13 @@ import atexit
 import contextlib
 import inspect
 import os
+import time
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextvars import ContextVar
 from typing import Any, Protocol, TypedDict, TypeVar, Union
 
 from . import _core, _imports, _options
+from ._errors import Cancelled, Timeout
 
 Progress = Union[bool, Callable[[str, int, int], object]]
 _Result = TypeVar("_Result")
@@ -89,6 +91,42 @@ def run(function: Callable[..., _Result], *arguments: Any, options: dict[str, An
         return function(*arguments, _core.RunOptions(
             given.get("threads", 0), given.get("memory_limit"), given.get("timeout"), report,
             given.get("stop"), slab_layers))
+
+
+@contextlib.contextmanager
+def rounds(stage: str, total: int, options: Mapping[str, Any]) -> Iterator[Iterator[int]]:
+    """Numbers the rounds of a computation that calls others. The timeout and the progress count the
+    rounds together, and the other options hold for every computation of the rounds.
+
+    `options` are the keywords that the user gave.
+    """
+    given = {**_DEFAULTS.get(), **{k: v for k, v in options.items() if v is not None}}
+    checked = _check(given)
+    seconds, stop, progress = (checked.get(name) for name in ("timeout", "stop", "progress"))
+    end = time.monotonic() + (seconds or 0)
+
+    def numbers(report: Callable[[str, int, int], object] | None) -> Iterator[int]:
+        for i in range(total):
+            if stop is not None and stop.is_set():
+                raise Cancelled("stopped on request")
+            if seconds is not None:
+                left = end - time.monotonic()
+                if left <= 0:
+                    raise Timeout(f"timeout: not finished after {seconds:g} s; a larger timeout or "
+                                  f"fewer {stage} may help")
+                _DEFAULTS.set({**given, "progress": False, "timeout": left})
+            if report is not None:
+                report(stage, i, total)
+            yield i
+        if report is not None:
+            report(stage, total, total)
+
+    token = _DEFAULTS.set({**given, "progress": False})
+    try:
+        with _bar() if progress is True else contextlib.nullcontext(progress) as report:
+            yield numbers(report)
+    finally:
+        _DEFAULTS.reset(token)
 
 
 def memory_limit(options: Mapping[str, Any]) -> int | None:

@@ -2,7 +2,7 @@
 """Clustering by density without a scale and without the number of clusters (HDBSCAN*)."""
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import scipy.sparse
@@ -12,11 +12,16 @@ from sklearn.base import BaseEstimator, ClusterMixin
 from sklearn.metrics import pairwise_distances
 from sklearn.utils.validation import check_is_fitted
 
-from .. import _hierarchy, _options
+from .. import _hierarchy, _options, _real_clusters, _run
 from .._clusters import Clusters, of_forest
 from .._errors import DataError, UsageError
 from .._trees import MergeTree
 from ._base import table_of
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+    from .._run import RunOptions
 
 _Integers = NDArray[np.int64]
 _Numbers = NDArray[np.float64]
@@ -310,6 +315,83 @@ allow_single_cluster, max_cluster_size
             _options.real("cut_distance", cut_distance),
             min_size=_options.whole("min_cluster_size", min_cluster_size, 1))
         return np.where(self._marks < 0, self._marks, labels)
+
+    # ---- which clusters are real
+
+    def stability(self, resamples: int = 100, *, fraction: float = 0.632, seed: int = 0,
+                  **run: Unpack[RunOptions]) -> _real_clusters.ClusterStability:
+        """How well subsamples reproduce each cluster.
+
+        Each subsample is drawn without replacement and clustered with the same parameters, except
+        that the sizes of clusters and `min_samples`, without the point itself, are multiplied by
+        `fraction`. Each cluster is compared with the most similar cluster of the subsample: the
+        Jaccard similarity is the number of sampled points in both, divided by the number of those
+        in either (Hennig, Cluster-wise assessment of cluster stability, 2007). A cluster with a
+        mean below 0.6 should not be trusted, one from 0.75 on is stable, and one from 0.85 on is
+        highly stable. This is not the stability of HDBSCAN*, which libph calls mass.
+
+        Parameters
+        ----------
+        resamples : int
+            Number of subsamples.
+        fraction : float
+            The size of each subsample, as a share of the rows, above 0 and below 1. Default: the
+            share of distinct rows in a bootstrap sample. Copies of rows would be clusters.
+        seed : int
+            Seed of the random numbers; the same seed gives the same result.
+        **run
+            `threads`, `memory_limit`, `progress`, `timeout`, `stop`; see `libph`. Default for
+            threads: `n_jobs`.
+
+        Returns
+        -------
+        ClusterStability
+        """
+        _run.check_names("stability", run, HDBSCAN.stability)
+        kept, threads = self._rows_and_threads(run)
+        return _real_clusters.stability(
+            self._hierarchy, kept, self.labels_[kept], self._selection(), resamples, fraction, seed,
+            threads, dict(run))
+
+    def significance(self, samples: int = 199, *, null: str = "both", seed: int = 0,
+                     **run: Unpack[RunOptions]) -> _real_clusters.ClusterSignificance:
+        """The p-value of each cluster: how often noise has a cluster that is as clearly separated.
+
+        Noise is drawn with as many points as the data, from one normal distribution with the same
+        mean and covariance, or from a uniform distribution over the box along the principal axes
+        that encloses the data. The *prominence* of a cluster is the value at which it joins other
+        clusters, divided by the least value at which a part of it still has `min_cluster_size`
+        points. Where clusters join, the most prominent one goes on. The *separation* of a cluster
+        is the prominence of the less prominent side where it joins others, or where a cluster that
+        goes on as it does, whichever is largest. p is (r + 1) / (samples + 1), for r samples of
+        noise in which any cluster has at least this separation. Because all clusters of the noise
+        count, p holds for all clusters of the data together.
+
+        A small p says that the data are not one such cloud. Points along a curve get one as well.
+
+        Parameters
+        ----------
+        samples : int
+            Number of samples of noise. The least possible p is 1 / (samples + 1).
+        null : {"both", "normal", "uniform"}
+            The distribution of the noise; "both": the larger of the two p-values.
+        seed, **run
+            As in `stability`.
+
+        Returns
+        -------
+        ClusterSignificance
+        """
+        _run.check_names("significance", run, HDBSCAN.significance)
+        kept, threads = self._rows_and_threads(run)
+        return _real_clusters.significance(self._hierarchy, kept, self._chosen, samples, null, seed,
+                                           threads, dict(run))
+
+    def _rows_and_threads(self, run: RunOptions) -> tuple[_Integers, int]:
+        check_is_fitted(self)
+        threads = run.get("threads")
+        return (np.flatnonzero(self._marks == 0),
+                effective_n_jobs(self.n_jobs) if threads is None else threads)
 
     def _more_tags(self) -> dict[str, Any]:
         return {"allow_nan": not self._is_precomputed(), "pairwise": self._is_precomputed()}
