@@ -112,6 +112,12 @@ TEST(PointsViews, AreTheSamePointsInAnyLayout) {
   });
 }
 
+// A matrix of other numbers was taken for a metric, of which each number is a point.
+static_assert(Metric<PointMetric>);
+static_assert(!Metric<Eigen::MatrixXf> && !Metric<Eigen::MatrixXi> && !Metric<Eigen::MatrixXd>);
+static_assert(!std::constructible_from<Rips, const Eigen::MatrixXf&>);
+static_assert(std::constructible_from<Rips, const Eigen::MatrixXd&>);
+
 TEST(PointsViews, OfEigenTakeNoCopy) {
   Points points{{0, 1}, {2, 3}};
   EXPECT_EQ(as_matrix(points).data(), points.data());

@@ -12,13 +12,19 @@ namespace ph {
 /// The error for a coordinate that is infinite or NaN; the message marks its place and its value.
 Error not_finite(Index point, Index coordinate, double found);
 
+/// A matrix, whatever its numbers are.
+template <class M>
+concept HasColumns = requires(const M& m) {
+  m.cols();
+};
+
 /// A finite set with a dissimilarity: symmetric, zero on the diagonal, never negative or NaN;
 /// +infinity means that two points are never joined. The triangle inequality is not required.
 /// Several threads may request distances at once. Points alone are not a metric: they need a
-/// distance.
+/// distance. Other matrices are no metric either; ph/eigen.hpp makes points of them.
 template <class M>
-concept Metric =
-    !std::convertible_to<const M&, PointsView> && requires(const M& m, Index i, Index j) {
+concept Metric = !std::convertible_to<const M&, PointsView> && !HasColumns<M> &&
+                 requires(const M& m, Index i, Index j) {
   { m.size() } -> std::convertible_to<Index>;
   { m(i, j) } -> std::convertible_to<double>;
 };
