@@ -71,7 +71,7 @@ std::string distances_text(const Loaded& loaded, const Arguments& a, Index neigh
 std::array<double, 2> bytes_beside(const Loaded& loaded, const Arguments& a, Index neighbours) {
   const auto n = static_cast<double>(loaded.points);
   const auto points = app::points_of(loaded.read);
-  if (points && has_fast_spanning_forest(a.rips.distance)) {
+  if (points && has_fast_spanning_forest(*points, a.rips.distance)) {
     // The tree has two copies of the coordinates, if there are more than three.
     const double copies = 2 * sizeof(double) * static_cast<double>(points->cols());
     return {(90 + copies) * n, (220 + copies) * n};

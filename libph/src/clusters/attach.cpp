@@ -49,7 +49,8 @@ class JointPoints {
   void for_each_added(std::size_t count, std::span<const double> births, std::string_view stage,
                       const std::function<void(Index, std::span<const Neighbour>)>& use,
                       const RunContext& context) const {
-    if (first_ == 0 || added() == 0 || all_.cols() == 0 || !has_fast_spanning_forest(distance_))
+    if (first_ == 0 || added() == 0 || all_.cols() == 0 ||
+        !has_fast_spanning_forest(all_, distance_))
       compare_all(count, births, stage, use, context);
     else
       search_tree(count, births, stage, use, context);

@@ -51,7 +51,8 @@ void for_each_nearest(PointsView points, Index k, PointDistance distance, double
   // A list of neighbours is kept sorted while it grows. If the lists are longer than this,
   // computing all distances is faster.
   constexpr Index most_neighbours = 512;
-  if (k == 0 || k > most_neighbours || points.cols() == 0 || !has_fast_spanning_forest(distance)) {
+  if (k == 0 || k > most_neighbours || points.cols() == 0 ||
+      !has_fast_spanning_forest(points, distance)) {
     constexpr Index longest_list = 64;  // insertions into longer lists cost more than they save
     if (0 < k && k <= longest_list)
       compare_rows(checked, k, stage, use, context);

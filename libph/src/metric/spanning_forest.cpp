@@ -288,8 +288,9 @@ std::pmr::vector<std::uint32_t> first_copies(PointsView points, std::span<const 
 
 }  // namespace
 
-bool has_fast_spanning_forest(PointDistance distance) {
-  return NeighbourSearch::can_search(distance);
+bool has_fast_spanning_forest(PointsView points, PointDistance distance) {
+  constexpr Index most_axes = 128;  // with more, a search saves no time, and it copies the points
+  return points.cols() <= most_axes && NeighbourSearch::can_search(distance);
 }
 
 FlagEdges spanning_forest(PointsView points, PointDistance distance, double p,

@@ -52,7 +52,8 @@ RipsGraph forest_of_points(PointsView points, const RipsOptions& options,
     return RipsGraph::forest_on_gpu(points, options.threshold, context);
   // Points without coordinates are copies, which a tree can hold only if they are merged.
   const bool has_fast_births = weights.exponent() == WeightExponent::infinity && points.cols() > 0;
-  if ((weights.births().empty() || has_fast_births) && has_fast_spanning_forest(options.distance))
+  if ((weights.births().empty() || has_fast_births) &&
+      has_fast_spanning_forest(points, options.distance))
     return RipsGraph::forest_of_points(points, options.distance, options.minkowski_p,
                                        weights.births(), options.threshold, context);
   return RipsGraph::forest_of_metric(PointMetric(points, options.distance, options.minkowski_p),
@@ -240,7 +241,7 @@ std::optional<RipsGraph> core_forest(const RipsData& data, const RipsOptions& op
       points->view.cols() == 0 || options.threshold.value_or(kInfinity) < kInfinity ||
       !options.vertices.empty() || options.subsample || options.device == Device::gpu ||
       exponent_of(options) != WeightExponent::infinity ||
-      !has_fast_spanning_forest(options.distance))
+      !has_fast_spanning_forest(points->view, options.distance))
     return std::nullopt;
   return RipsGraph::core_forest_of_points(points->view, k, options.distance, options.minkowski_p,
                                           context);

@@ -66,7 +66,7 @@ FlagEdges spanning_forest(Index size, DistanceOf&& distance_of, double limit,
 }
 
 /// True if `spanning_forest` of points is faster than examining each pair.
-bool has_fast_spanning_forest(PointDistance distance);
+bool has_fast_spanning_forest(PointsView points, PointDistance distance);
 
 /// For points: Borůvka's algorithm (1926) with a k-d tree that finds the nearest point of another
 /// component (March, Ram, Gray, "Fast Euclidean minimum spanning tree", 2010). Usually O(n log n)
@@ -78,7 +78,7 @@ bool has_fast_spanning_forest(PointDistance distance);
 /// @param births one per point, finite, >= 0; if empty, all births are 0. With births, points need
 /// at least one coordinate.
 /// @param largest as for PointMetric, if the points are a part of a cloud. Precondition:
-/// has_fast_spanning_forest(distance).
+/// has_fast_spanning_forest(points, distance).
 /// @throws Error (bad_data) as PointMetric.
 FlagEdges spanning_forest(PointsView points, PointDistance distance, double p,
                           std::span<const double> births, double limit, const RunContext& context,

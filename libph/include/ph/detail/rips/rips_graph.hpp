@@ -65,7 +65,7 @@ class RipsGraph {
   static RipsGraph forest_of_metric(const M& metric, std::optional<double> threshold,
                                     const RunContext& context, const VertexWeights& weights = {});
   /// The same forest for points, in near-linear time. Precondition:
-  /// has_fast_spanning_forest(distance).
+  /// has_fast_spanning_forest(points, distance).
   /// @param births the values at which the points enter, with WeightExponent::infinity; if empty,
   /// all points enter at 0.
   static RipsGraph forest_of_points(PointsView points, PointDistance distance, double p,
