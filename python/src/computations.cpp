@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -55,8 +56,10 @@ std::vector<Bars> barcodes(const std::vector<const Recipe*>& recipes,
   const bool is_short = recipes.size() == 1 && recipes[0]->is_short(tasks[0].options);
   return run(options, is_short, [&](const RunContext& context) {
     std::vector<Bars> all(recipes.size());
+    std::vector<std::optional<MemoryClaim>> held(recipes.size());  // the barcodes that are done
     for_each_input(recipes.size(), context, [&](std::size_t i, const RunContext& of_input) {
       all[i] = compute(*recipes[i], tasks[i], of_input);
+      held[i].emplace(context.memory, all[i].barcode.bytes());
     });
     return all;
   });

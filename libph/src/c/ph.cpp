@@ -10,6 +10,7 @@
 #include <future>
 #include <memory>
 #include <new>
+#include <optional>
 #include <stdexcept>
 #include <stop_token>
 #include <string>
@@ -197,9 +198,11 @@ ph_status barcodes_of(const ph_options* given, std::size_t count, ph_barcode** o
   return run(given, out, [&](const ph_options& options, const RunContext& context) {
     const Options task = task_of(options);
     std::vector<std::unique_ptr<ph_barcode>> bars(count);
+    std::vector<std::optional<MemoryClaim>> held(count);  // the barcodes that are done
     for_each_input(count, context, [&](std::size_t i, const RunContext& of_input) {
       bars[i] =
           std::make_unique<ph_barcode>(persistence(make(i, options, of_input), task, of_input));
+      held[i].emplace(context.memory, bars[i]->bars.bytes());
     });
     for (std::size_t i = 0; i < count; ++i) out[i] = bars[i].release();
   });

@@ -37,7 +37,7 @@ void for_each_input(std::size_t count, const RunContext& context,
                     const std::function<void(std::size_t, const RunContext&)>& work) {
   std::stop_source stop;
   const std::stop_callback as_asked(context.stop, [&] { stop.request_stop(); });
-  RunContext of_input;
+  RunContext of_input(context.memory);  // `work` may claim memory of `context` for its results
   of_input.stop = stop.get_token();
   of_input.memory.set_limit(context.memory.left());
   of_input.threads = static_cast<int>(

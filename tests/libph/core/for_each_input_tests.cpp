@@ -5,6 +5,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <memory>
 #include <new>
 #include <stop_token>
 #include <thread>
@@ -60,6 +61,25 @@ TEST(ForEachInput, SharesThreadsAndMemoryOut) {
     const MemoryClaim most(of_input.memory, 600);
     EXPECT_EQ(of_input.memory.left(), 0U) << i;
   });
+}
+
+TEST(ForEachInput, CountsWhatIsKeptOfEach) {
+  ThreadsContext context(1);
+  context.memory.set_limit(1000);
+  std::vector<std::unique_ptr<MemoryClaim>> kept;
+  try {
+    for_each_input(9, context, [&](std::size_t i, const RunContext& of_input) {
+      EXPECT_EQ(of_input.memory.left(), 1000 - 300 * i);
+      const MemoryClaim work(of_input.memory, 300);
+      EXPECT_EQ(of_input.memory.left(), 700 - 300 * i);
+      kept.push_back(std::make_unique<MemoryClaim>(context.memory, 300));
+    });
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::resource);
+    EXPECT_EQ(error.input(), 2U);
+  }
+  EXPECT_EQ(kept.size(), 2U);
 }
 
 TEST(ForEachInput, NamesTheFirstThatFails) {
