@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
-from . import _core, _options
+from . import _core, _options, _run
 from ._errors import DataError, MemoryLimitError, UsageError
 from ._results import in_units
 
@@ -176,7 +176,8 @@ def as_float64(array: NDArray[Any], name: str, mask: NDArray[np.bool_] | None = 
     if mask is None and array.dtype == _FLOAT64 and is_aligned(array):
         return array
     kind, size = array.dtype.kind, array.dtype.itemsize
-    if kind in "iu" and size == 8:
+    if kind in "iu" and size == 8 and array.size and (
+            int(array.max()) > _LARGEST or int(array.min()) < -_LARGEST):
         beyond = array > _LARGEST
         if kind == "i":
             beyond |= array < -_LARGEST
@@ -211,9 +212,18 @@ def _exceeds_memory(needed: int) -> bool:
     return needed > _LARGE and needed > _core.memory_left()
 
 
+def _require_limit(needed: int, what: str, way_out: str) -> None:
+    """Refuses a large array that, with the copies of input so far, would exceed the limit."""
+    limit = _run.memory_limit({})
+    if limit is not None and needed > max(limit - sum(_run.copies()), _LARGE):
+        raise MemoryLimitError(f"memory limit of {in_units(limit)} would be exceeded: {what} takes "
+                               f"{in_units(needed)}; {way_out} or raise the limit")
+
+
 def new_array(shape: int | tuple[int, ...]) -> NDArray[np.float64]:
-    """A new array of float64 to be filled in."""
+    """A new array of float64 to be filled in, within the memory that `limits` sets."""
     needed = math.prod(shape if isinstance(shape, tuple) else (shape,)) * 8
+    _require_limit(needed, f"a result of shape {shape}", "ask for less")
     if _exceeds_memory(needed):
         raise MemoryLimitError(f"found a result of shape {shape}, whose {needed} bytes would "
                                "exceed the available memory")
@@ -228,9 +238,12 @@ def side_by_side(array: NDArray[Any], name: str) -> NDArray[Any]:
 
 def _copied(array: NDArray[Any], dtype: DTypeLike, name: str) -> NDArray[Any]:
     """A copy of another type, in C order."""
-    if _exceeds_memory(array.size * np.dtype(dtype).itemsize):
+    needed = array.size * np.dtype(dtype).itemsize
+    _require_limit(needed, f"a copy of {name} in {np.dtype(dtype)}", "pass less data")
+    if _exceeds_memory(needed):
         raise MemoryLimitError(f"{name}: found {array.size} numbers of type {array.dtype}, whose "
                                f"copy of type {np.dtype(dtype)} would exceed the available memory")
+    _run.copies().append(needed)
     return array.astype(dtype, order="C")
 
 

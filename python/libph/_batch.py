@@ -72,18 +72,20 @@ def computed(function: Callable[..., Barcode], inputs: Iterable[Any], options: d
     run = {k: v for k, v in options.items() if k not in defaults}
     _run.check_names(function.__name__, run, keywords)
     requests: list[Request] = []
-    for i, given in enumerate(_options.several(f"{what}s", inputs, "a list of them")):
-        try:
-            requests.append(request_of(_arguments(given, places, keywords)))
-        except Error as error:
-            raise reworded(error, f"{what} {i}: {error}") from None
+    with _run.within_limit(run) as copies:
+        for i, given in enumerate(_options.several(f"{what}s", inputs, "a list of them")):
+            try:
+                requests.append(request_of(_arguments(given, places, keywords)))
+            except Error as error:
+                raise reworded(error, f"{what} {i}: {error}") from None
     if not requests:
         return []
     try:
         bars = _run.run(_core.barcodes, [r.recipe for r in requests],
                         # Every request has a task.
                         [r.task for r in requests if r.task is not None],
-                        options=run, slab_layers=requests[0].slab_layers)
+                        options=run, slab_layers=requests[0].slab_layers,
+                        copied=sum(copies))
     except Cancelled:
         raise
     except Error as error:

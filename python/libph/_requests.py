@@ -22,6 +22,19 @@ _EXPONENTS = {1: "1", 2: "2", math.inf: "inf"}
 ALPHA_VALUES = ["alpha", "delaunay-cech", "delaunay-rips"]
 _NUMBERS = {name: number for number, name in _EXPONENTS.items()}
 _Result = TypeVar("_Result")
+_RequestOf = Callable[[dict[str, Any]], "Request"]
+
+
+def _within_limit(request_of: _RequestOf) -> _RequestOf:
+    """The same function, whose copies of the input count towards the memory limit."""
+    @functools.wraps(request_of)
+    def limited(o: dict[str, Any]) -> Request:
+        if _run.memory_limit(o["run"]) is None:
+            return request_of(o)
+        with _run.within_limit(o["run"]) as copies:
+            request = request_of(o)
+        return request._replace(copied=sum(copies))
+    return limited
 
 
 class PointImage(NamedTuple):
@@ -53,6 +66,7 @@ class Request(NamedTuple):
     options: dict[str, Any]  # options of the run
     facts: Callable[[], dict[str, Any]]
     slab_layers: int = 0
+    copied: int = 0  # bytes of copies of the input
 
     @property
     def meta(self) -> dict[str, Any]:
@@ -65,7 +79,7 @@ class Request(NamedTuple):
         arguments = (self.recipe,) if self.task is None else (self.recipe, self.task)
         try:
             return _run.run(function, *arguments, options=self.options,
-                            slab_layers=self.slab_layers)
+                            slab_layers=self.slab_layers, copied=self.copied)
         except (DataError, MemoryLimitError) as error:
             raise self.told(error) from None
 
@@ -92,7 +106,7 @@ class Request(NamedTuple):
         try:
             ways = _run.run(_core.ways_to_fit, self.recipe, self.task,
                             options={**self.options, "progress": False},
-                            slab_layers=self.slab_layers)
+                            slab_layers=self.slab_layers, copied=self.copied)
         except (Cancelled, MemoryLimitError):
             return error
         if not ways:
@@ -165,6 +179,7 @@ def _meta(complex_name: str, o: dict[str, Any], **more: Any) -> dict[str, Any]:
     return {name: value for name, value in meta.items() if value is not None}
 
 
+@_within_limit
 def rips_request(o: dict[str, Any]) -> Request:
     """The request for X and all keywords of `rips`."""
     _run.check_names("rips", o["run"], o)
@@ -259,6 +274,7 @@ def _weights(o: dict[str, Any], source: Source
     return births, neighbours, _EXPONENTS[number]
 
 
+@_within_limit
 def alpha_request(o: dict[str, Any]) -> Request:
     """The request for X and all keywords of `alpha`."""
     _run.check_names("alpha", o["run"], o)
@@ -319,6 +335,7 @@ def _period(period: Any, axes: int) -> list[float]:
     return [0.0 if length is None else _finite("period", length) for length in given]
 
 
+@_within_limit
 def cubical_request(o: dict[str, Any]) -> Request:
     """The request for the image and all keywords of `cubical`."""
     _run.check_names("cubical", o["run"], o)
@@ -344,6 +361,7 @@ def cubical_request(o: dict[str, Any]) -> Request:
         nan=_unless(nan, "error")), layers)
 
 
+@_within_limit
 def lower_star_request(o: dict[str, Any]) -> Request:
     """The request for values, simplices and all keywords of `lower_star`."""
     _run.check_names("lower_star", o["run"], o)
@@ -354,6 +372,7 @@ def lower_star_request(o: dict[str, Any]) -> Request:
     return Request(recipe, task, o["run"], lambda: _meta("lower-star", o, points=len(values)))
 
 
+@_within_limit
 def filtered_request(o: dict[str, Any]) -> Request:
     """The request for simplices, values and all keywords of `filtered`."""
     _run.check_names("filtered", o["run"], o)
@@ -364,6 +383,7 @@ def filtered_request(o: dict[str, Any]) -> Request:
     return Request(recipe, task, o["run"], lambda: _meta("explicit", o))
 
 
+@_within_limit
 def boundary_request(o: dict[str, Any]) -> Request:
     """The request for matrix, dims, values and all keywords of `boundary`."""
     _run.check_names("boundary", o["run"], o)

@@ -36,6 +36,7 @@ class RunOptions(TypedDict, total=False):
 
 _NAMES = ("threads", "memory_limit", "progress", "timeout", "stop")
 _DEFAULTS: ContextVar[dict[str, Any]] = ContextVar("libph.limits", default={})
+_COPIES: ContextVar[list[int] | None] = ContextVar("libph.copies", default=None)
 _PLAIN = _core.RunOptions(0, None, None, None, None, 0)
 
 atexit.register(_core.end_calls)
@@ -76,11 +77,38 @@ def limits(*, memory: int | str | None = None, threads: int | None = None,
         _DEFAULTS.reset(token)
 
 
+@contextlib.contextmanager
+def within_limit(options: Mapping[str, Any]) -> Iterator[list[int]]:
+    """Makes the `memory_limit` of these keywords the default within a ``with`` block.
+
+    Yields the bytes of each copy of input that the block, or a block around it, has made.
+    """
+    limit = memory_limit(options)
+    counted = copies()
+    if limit is None:
+        yield counted
+        return
+    default = _DEFAULTS.set({**_DEFAULTS.get(), "memory_limit": limit})
+    count = _COPIES.set(counted)
+    try:
+        yield counted
+    finally:
+        _COPIES.reset(count)
+        _DEFAULTS.reset(default)
+
+
+def copies() -> list[int]:
+    """The list of the current `within_limit`; outside, a list that nobody reads."""
+    counted = _COPIES.get()
+    return [] if counted is None else counted
+
+
 def run(function: Callable[..., _Result], *arguments: Any, options: dict[str, Any],
-        slab_layers: int = 0) -> _Result:
+        slab_layers: int = 0, copied: int = 0) -> _Result:
     """Calls a function of _core whose last argument is RunOptions.
 
-    `options` are the keywords that the user gave.
+    `options` are the keywords that the user gave. `copied` are the bytes of copies of the input,
+    which count towards the memory limit.
     """
     defaults = _DEFAULTS.get()
     if not options and not defaults and not slab_layers:
@@ -90,7 +118,7 @@ def run(function: Callable[..., _Result], *arguments: Any, options: dict[str, An
     with _bar() if progress is True else contextlib.nullcontext(progress) as report:
         return function(*arguments, _core.RunOptions(
             given.get("threads", 0), given.get("memory_limit"), given.get("timeout"), report,
-            given.get("stop"), slab_layers))
+            given.get("stop"), slab_layers, copied))
 
 
 @contextlib.contextmanager

@@ -8,6 +8,7 @@
 #include <condition_variable>
 #include <exception>
 #include <mutex>
+#include <optional>
 #include <stop_token>
 #include <string>
 #include <system_error>
@@ -17,6 +18,10 @@
 #include "ph/detail/core/machine_memory.hpp"
 #include "ph/detail/core/on_first_use.hpp"
 #include "python/src/calls/bindings.hpp"
+
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 namespace ph::python {
 namespace {
@@ -35,12 +40,21 @@ std::size_t memory_left() {
   return *all - std::min<std::size_t>(*all, status_bytes("RssAnon:").value_or(0));
 }
 
+struct ContextWithInput {
+  RunContext context;
+  std::optional<MemoryClaim> input;
+};
+
 std::shared_ptr<RunContext> new_context(const RunOptions& options, bool is_short) {
-  auto context = std::make_shared<RunContext>();
+  auto both = std::make_shared<ContextWithInput>();
+  const std::shared_ptr<RunContext> context(both, &both->context);
   // A second thread would take longer to start than a short computation takes.
   context->threads = is_short && options.threads == 0 ? 1 : options.threads;
   context->slab_layers = options.slab_layers;
-  if (options.memory_limit) context->memory.set_limit(*options.memory_limit);
+  if (options.memory_limit) {
+    context->memory.set_limit(*options.memory_limit);
+    both->input.emplace(context->memory, options.copied);
+  }
   return context;
 }
 
@@ -115,6 +129,11 @@ class Computation {
 
   /// Runs the computation and waits until it is done.
   void run() {
+    // The C library keeps memory that Python freed, for example after a conversion of the input.
+    // The thread of the computation cannot use it, and the limit does not count it.
+#ifdef __GLIBC__
+    if (options_.memory_limit && !is_short_) malloc_trim(0);
+#endif
     if (!options_.memory_limit && !is_short_) context_->memory.set_limit(memory_left());
     look(std::nullopt);  // a stop may have been requested before a short computation begins
     context_->poll();
@@ -263,12 +282,12 @@ void bind_run(py::module_& m) {
   py::class_<RunOptions>(m, "RunOptions")
       .def(py::init([](int threads, std::optional<std::size_t> memory_limit,
                        std::optional<double> timeout, py::object progress, py::object stop,
-                       int slab_layers) {
+                       int slab_layers, std::size_t copied) {
              return RunOptions{threads,         memory_limit, timeout, std::move(progress),
-                               std::move(stop), slab_layers};
+                               std::move(stop), slab_layers,  copied};
            }),
            py::arg("threads"), py::arg("memory_limit"), py::arg("timeout"), py::arg("progress"),
-           py::arg("stop"), py::arg("slab_layers"));
+           py::arg("stop"), py::arg("slab_layers"), py::arg("copied") = 0);
   m.def("memory_left", &memory_left);
   m.def("end_calls", &Calls::end_all);
   m.def("forget_calls", &Calls::forget_all);

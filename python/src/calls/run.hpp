@@ -27,6 +27,8 @@ struct RunOptions {
   /// The computation stops once `is_set()` of this object returns true.
   py::object stop = py::none();
   int slab_layers = 0;  ///< see RunContext
+  /// Bytes of copies of the input, which count towards `memory_limit`.
+  std::size_t copied = 0;
 
   /// True if the computation must be observed, even if it is short.
   bool is_watched() const { return timeout || !progress.is_none() || !stop.is_none(); }

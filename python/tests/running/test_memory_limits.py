@@ -117,6 +117,16 @@ JOBS = {
                        "ph.rips(X, engine='standard', memory_limit=limit, timeout=timeout)"),
     "rips, all bars": ("X = rng.random((1500, 3))",
                        "ph.rips(X, min_persistence=-1, memory_limit=limit, timeout=timeout)"),
+    "sparse distances, converted": ("n, m = 60000, 1800000; i, j = rng.integers(0, n, m), rng.integers(0, n, m); "
+                                    "k = i < j; m = sparse.csr_matrix((rng.random(k.sum()), (i[k], j[k])), shape=(n, n)); "
+                                    "m = m.maximum(m.T).tocsr()",
+                                    "ph.rips(m, metric='precomputed', memory_limit=limit, timeout=timeout)"),
+    "rips of float32": ("X = rng.random((150000, 60), dtype=np.float32)",
+                        "ph.rips(X, max_dim=0, memory_limit=limit, timeout=timeout)"),
+    "cubical of int64": ("V = rng.integers(0, 255, (4000, 4000))",
+                         "ph.cubical(V, max_dim=0, memory_limit=limit, timeout=timeout)"),
+    "batch": ("V = [rng.random((48, 48, 48)) for _ in range(24)]",
+              "ph.batch(ph.cubical, V, memory_limit=limit, timeout=timeout)"),
     "components": ("X = rng.random((400000, 3))",
                    "ph.rips(X, max_dim=0, memory_limit=limit, timeout=timeout)"),
     "cubical": ("V = rng.integers(0, 255, (80, 80, 80), dtype=np.uint8)",
@@ -133,7 +143,7 @@ JOBS = {
                  "ph.collapse(D, memory_limit=limit, timeout=timeout)"),
 }
 IN_THE_SUITE = ("lower_star", "delaunay-cech", "filtered", "filtered, graph", "boundary",
-                "sparse distances", "rips", "cubical")
+                "sparse distances", "rips", "cubical", "cubical of int64", "batch")
 ALL = float(os.environ.get("PH_TEST_SEEDS", "1")) > 1
 
 
