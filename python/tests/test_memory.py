@@ -148,6 +148,38 @@ def test_a_refused_conversion_names_sizes_and_a_way_out():
         ph.filtered([(k, k + 1) for k in range(100)], np.zeros(100), memory_limit=1000)
 
 
+def test_a_copy_of_the_input_is_counted():
+    image = np.zeros((1700, 1700), np.int64)  # its copy takes 22 MiB
+    expected = ph.cubical(image, cells=False, slab_layers=4)
+    assert ph.cubical(image, cells=False, slab_layers=4, memory_limit="40MiB") == expected
+    assert ph.cubical(image * 1.0, cells=False, slab_layers=4, memory_limit="20MiB") == expected
+    words = "^memory limit of 20 MiB would be exceeded: a copy of image in float64 takes 22.05 MiB; "
+    for function in (ph.cubical, lambda x, **o: ph.estimate(x, complex="cubical", **o),
+                     lambda x, **o: ph.batch(ph.cubical, [x], **o)):
+        with pytest.raises(ph.MemoryLimitError, match="a copy of image"):
+            function(image, memory_limit="20MiB")
+    with ph.limits(memory="20MiB"), pytest.raises(ph.MemoryLimitError, match=words):
+        ph.cubical(image)
+    with pytest.raises(ph.MemoryLimitError, match="memory limit of 23 MiB .*: 2[23].* MiB in use"):
+        ph.cubical(np.arange(image.size).reshape(image.shape) * 7919 % 4096, memory_limit="23MiB")
+
+
+def test_a_result_must_fit_into_the_limit():
+    bars = ph.rips([[0.0], [1.0], [3.0]])
+    with ph.limits(memory="20MiB"):
+        assert bars.image(0, bandwidth=1, infinity=4).shape == (20, 20)
+        with pytest.raises(ph.MemoryLimitError, match=r"20 MiB .* a result of shape \(2000, 2000\)"):
+            bars.image(0, bandwidth=1, infinity=4, resolution=2000)
+        with pytest.raises(ph.MemoryLimitError, match="memory limit of 20 MiB would be exceeded"):
+            bars_of_one = np.random.default_rng(0).random((60_000, 2)).cumsum(axis=1)
+            ph.Barcode.from_dgms([bars_of_one]).exact_landscape(0, 300)
+        many = ph.Barcode.from_dgms([np.tile(bars_of_one, (4, 1))])
+        for curve in (lambda: many.betti_function(0), many.euler_curve):
+            with pytest.raises(ph.MemoryLimitError, match="conversion of the 240000 bars may take"):
+                curve()
+    assert bars.image(0, bandwidth=1, infinity=4, resolution=2000).shape == (2000, 2000)
+
+
 def test_shuffles_take_no_memory():
     distances = np.ones((4, 4)) - np.eye(4)
     test = ph.permutation_test(distances, [0, 0, 1, 1], shuffles=10**5, memory_limit="64KiB")

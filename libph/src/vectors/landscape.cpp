@@ -125,6 +125,9 @@ std::vector<PiecewiseLinear> exact_landscape(std::span<const Bar> given, std::si
   Ticker ticker(context, "landscape", std::min(layers, tents.size()));
   std::vector<PiecewiseLinear> landscapes;
   std::vector<Bar> below;
+  const std::size_t taken = 2 * tents.size() * sizeof(Bar);
+  std::size_t points = 0;  // of the layers that are done
+  MemoryClaim claim(context.memory, taken);
   while (!tents.empty() && landscapes.size() < layers) {
     PiecewiseLinear& layer = landscapes.emplace_back();
     const auto add = [&](double t, double value) {
@@ -167,6 +170,8 @@ std::vector<PiecewiseLinear> exact_landscape(std::span<const Bar> given, std::si
     }
     if (has_shared) below.push_back(shared);
     add(now.death, 0);
+    points += layer.at.capacity() + layer.value.capacity();
+    claim.grow_to(taken + points * sizeof(double));
     tents.swap(below);
     ticker.tick();
   }

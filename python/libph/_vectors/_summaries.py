@@ -18,6 +18,12 @@ from ._ranges import (Range, checked_range, checked_resolution, default_bandwidt
 from ._steps import PiecewiseLinear, StepFunction, refuse_nan
 
 
+def _require_room(bars: int) -> None:
+    """Refuses a curve of so many bars if it would exceed the limit of the current block."""
+    per_bar = 112  # bytes of a bar, its ends while they are sorted, and the steps there
+    _arrays.require_room(per_bar * bars, _run.memory_limit({}), f"the {bars} bars")
+
+
 @_options.with_hints
 class Summaries:
     """The methods of `Barcode` that summarise it in numbers; `Barcode` defines `dgm`."""
@@ -30,6 +36,7 @@ class Summaries:
         @property
         def _arrays(self) -> tuple[NDArray[np.int64], NDArray[np.float64], NDArray[np.float64]]: ...
         def dgm(self, dim: int) -> Diagram: ...
+        def __len__(self) -> int: ...
 
     # ---- numbers
 
@@ -119,7 +126,9 @@ class Summaries:
         >>> curve.at, curve.value, curve(0.5)
         (array([0., 1., 2.]), array([3, 2, 1]), 3)
         """
-        return StepFunction._of(_run.run(_core.curve_of_bars, self.dgm(dim), None, options={}))
+        rows = self.dgm(dim)
+        _require_room(len(rows))
+        return StepFunction._of(_run.run(_core.curve_of_bars, rows, None, options={}))
 
     def euler_curve(self) -> StepFunction:
         """The Euler characteristic at any value: the alternating sum of the Betti numbers.
@@ -132,6 +141,7 @@ class Summaries:
         >>> curve.at, curve.value
         (array([1., 5., 7.]), array([-1,  0,  1]))
         """
+        _require_room(len(self))
         dims, births, deaths = self._arrays
         return StepFunction._of(_run.run(_core.curve_of_bars, np.column_stack([births, deaths]), dims,
                                          options={}))

@@ -100,7 +100,8 @@ def ripser(X: Any, maxdim: int = 1, thresh: float = np.inf, coeff: int = 2,
         points, radii, to_all = get_greedy_perm(X, n_perm, distance_matrix, metric)
         covering, distances = radii[-1], to_all[:, points]
     else:
-        distances = to_all = X if distance_matrix else _pairwise(X, metric)
+        with _run.within_limit(run):
+            distances = to_all = X if distance_matrix else _pairwise(X, metric)
     if _arrays.is_sparse(distances):
         flag = _flag.of_sparse(distances, limit, distances.shape[0], upper_wins=False)
     else:
@@ -159,7 +160,9 @@ def _euclidean(points: NDArray[np.float64]) -> NDArray[np.float64]:
     """The Euclidean distances of finite points, with the digits of scikit-learn, whose import takes
     longer than most computations. Both use the law of cosines and the same functions of NumPy."""
     squares = np.einsum("ij,ij->i", points, points)
-    distances: NDArray[np.float64] = -2 * (points @ points.T)
+    distances = _arrays.new_array((len(points), len(points)))
+    np.matmul(points, points.T, out=distances)
+    distances *= -2
     distances += squares[:, None]
     distances += squares
     np.maximum(distances, 0, out=distances)

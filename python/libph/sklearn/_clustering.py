@@ -13,7 +13,7 @@ from sklearn.base import BaseEstimator, ClusterMixin
 from sklearn.exceptions import ConvergenceWarning
 from sklearn.neighbors import NearestNeighbors
 
-from .. import _arrays, _options
+from .. import _arrays, _options, _run
 from .._compute import filtered
 from .._errors import UsageError
 from .._points import root_mean_square
@@ -25,6 +25,7 @@ _Integers = NDArray[np.int64]
 _Numbers = NDArray[np.float64]
 
 _STANDS_OUT = 1.5  # least ratio of a bar to the next shorter one; noise seldom reaches it
+_BYTES_PER_NEIGHBOUR = 80  # the most that the graph of neighbours takes while hills are found
 
 
 class PersistenceClustering(ClusterMixin, BaseEstimator):
@@ -207,6 +208,8 @@ def _hills_of(function: _Numbers, neighbours: _Integers) -> _Hills:
     """Computes the hills. All steps use the ranks of the points, so that their numbers break
     ties."""
     n = len(function)
+    _arrays.require_room(_BYTES_PER_NEIGHBOUR * neighbours.size, _run.memory_limit({}),
+                         f"the {neighbours.size} neighbours")
     order = np.argsort(function, kind="stable")
     rank = np.empty(n, dtype=np.int64)
     rank[order] = np.arange(n)

@@ -102,7 +102,7 @@ class EulerCurve(MakesTables, TransformerMixin, TakesDiagrams):
         """
         check_is_fitted(self, "range_")
         images = list_of(X, "images", 1)
-        curves = np.empty((len(images), self._count))
+        curves = _arrays.new_array((len(images), self._count))
         for i, image in enumerate(images):
             try:
                 curves[i] = euler_curve(

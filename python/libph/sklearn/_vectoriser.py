@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from sklearn.base import TransformerMixin
 from sklearn.utils.validation import check_is_fitted
 
+from .. import _arrays
 from .._errors import UsageError
 from .._vectors import Diagram, Range, checked_infinity, settled
 from .._vectors._ranges import checked_range
@@ -66,7 +67,7 @@ class Vectoriser(MakesTables, TransformerMixin, TakesDiagrams):
         check_is_fitted(self, "n_features_in_")
         self._check()
         samples = samples_like(self._diagram_names, X)
-        vectors = np.empty((len(samples.rows), self._n_features_out))
+        vectors = _arrays.new_array((len(samples.rows), self._n_features_out))
         for i, row in enumerate(self._settled(samples)):
             vectors[i] = np.concatenate([np.ravel(self._vector(dgm, j)) for j, dgm in enumerate(row)])
         return self._in_table(X, vectors)

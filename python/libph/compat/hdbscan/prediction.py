@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ... import _options
+from ... import _arrays, _options
 from ..._errors import UsageError
 from .. import _missing
 
@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 __all__ = ["PredictionData", "all_points_membership_vectors", "approximate_predict",
            "approximate_predict_scores", "membership_vector"]
 
+_BLOCK = 2**17  # numbers computed at a time
 _Integers = NDArray[np.int64]
 _Numbers = NDArray[np.float64]
 
@@ -170,14 +171,27 @@ def _strengths(fit: Fit, rows: Any, cluster: _Integers, leaves_at: _Numbers, sco
     the value at which the row meets the chosen cluster. The probability is the quotient of the
     values at which the chosen cluster that it meets first ends and at which the row meets it.
     """
-    result = np.zeros((len(cluster), len(fit.chosen)))
-    is_joined = np.isfinite(leaves_at)
-    if not is_joined.any() or not len(fit.chosen):
+    result = _arrays.new_array((len(cluster), len(fit.chosen)))
+    result[:] = 0
+    joined = np.flatnonzero(np.isfinite(leaves_at))
+    if not len(joined) or not len(fit.chosen):
         return result
-    cluster, leaves_at, clusters = cluster[is_joined], leaves_at[is_joined], fit.tree.clusters
-    met = fit.meetings()[cluster]
+    meetings, exemplars = fit.meetings(), fit.exemplars()
+    step = max(1, _BLOCK // len(fit.chosen))
+    for first in range(0, len(joined), step):  # in parts, because each part needs several arrays
+        part = joined[first:first + step]
+        near = _shares_of_near(fit.space.nearest(rows[part], fit.data, exemplars))
+        result[part] = _strengths_of_joined(fit, cluster[part], leaves_at[part], meetings, near,
+                                            score, exponents)
+    return result
+
+
+def _strengths_of_joined(fit: Fit, cluster: _Integers, leaves_at: _Numbers, meetings: _Numbers,
+                         near: _Numbers, score: Any, exponents: tuple[float, float]) -> _Numbers:
+    """The strengths of rows that join a cluster. `near` is the first of the two shares."""
+    clusters = fit.tree.clusters
+    met = meetings[cluster]
     met = np.where(met < 0, leaves_at[:, None], met)
-    near = _shares_of_near(fit.space.nearest(rows[is_joined], fit.data, fit.exemplars()))
     with np.errstate(divide="ignore"):
         scores = score(_quotient(clusters["bottom"][cluster][:, None], met))
     largest = scores.max(axis=1, keepdims=True)
@@ -188,8 +202,8 @@ def _strengths(fit: Fit, rows: Any, cluster: _Integers, leaves_at: _Numbers, sco
     first = met.min(axis=1)
     ends = np.where(met == first[:, None], clusters["bottom"][fit.chosen], 0).max(axis=1)
     probability = _quotient(np.minimum(ends, leaves_at), first)
-    result[is_joined] = shares * (probability / shares.sum(axis=1))[:, None]
-    return result
+    strengths: _Numbers = shares * (probability / shares.sum(axis=1))[:, None]
+    return strengths
 
 
 def _quotient(less: _Numbers, more: _Numbers) -> _Numbers:
