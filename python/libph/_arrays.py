@@ -223,7 +223,8 @@ def _require_limit(needed: int, what: str, way_out: str) -> None:
 def new_array(shape: int | tuple[int, ...]) -> NDArray[np.float64]:
     """A new array of float64 to be filled in, within the memory that `limits` sets."""
     needed = math.prod(shape if isinstance(shape, tuple) else (shape,)) * 8
-    _require_limit(needed, f"a result of shape {shape}", "ask for less")
+    if needed > _LARGE:
+        _require_limit(needed, f"a result of shape {shape}", "ask for less")
     if _exceeds_memory(needed):
         raise MemoryLimitError(f"found a result of shape {shape}, whose {needed} bytes would "
                                "exceed the available memory")
@@ -239,11 +240,12 @@ def side_by_side(array: NDArray[Any], name: str) -> NDArray[Any]:
 def _copied(array: NDArray[Any], dtype: DTypeLike, name: str) -> NDArray[Any]:
     """A copy of another type, in C order."""
     needed = array.size * np.dtype(dtype).itemsize
-    _require_limit(needed, f"a copy of {name} in {np.dtype(dtype)}", "pass less data")
+    if needed > _LARGE:
+        _require_limit(needed, f"a copy of {name} in {np.dtype(dtype)}", "pass less data")
+        _run.copies().append(needed)
     if _exceeds_memory(needed):
         raise MemoryLimitError(f"{name}: found {array.size} numbers of type {array.dtype}, whose "
                                f"copy of type {np.dtype(dtype)} would exceed the available memory")
-    _run.copies().append(needed)
     return array.astype(dtype, order="C")
 
 

@@ -29,6 +29,8 @@ def _within_limit(request_of: _RequestOf) -> _RequestOf:
     """The same function, whose copies of the input count towards the memory limit."""
     @functools.wraps(request_of)
     def limited(o: dict[str, Any]) -> Request:
+        if not o["run"] and not _run.DEFAULTS.get():
+            return request_of(o)
         if _run.memory_limit(o["run"]) is None:
             return request_of(o)
         with _run.within_limit(o["run"]) as copies:

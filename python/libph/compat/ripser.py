@@ -99,9 +99,11 @@ def ripser(X: Any, maxdim: int = 1, thresh: float = np.inf, coeff: int = 2,
     if n_perm and n_perm < X.shape[0]:
         points, radii, to_all = get_greedy_perm(X, n_perm, distance_matrix, metric)
         covering, distances = radii[-1], to_all[:, points]
+    elif distance_matrix:
+        distances = to_all = X
     else:
         with _run.within_limit(run):
-            distances = to_all = X if distance_matrix else _pairwise(X, metric)
+            distances = to_all = _pairwise(X, metric)
     if _arrays.is_sparse(distances):
         flag = _flag.of_sparse(distances, limit, distances.shape[0], upper_wins=False)
     else:
