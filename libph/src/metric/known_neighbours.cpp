@@ -14,7 +14,7 @@ namespace {
 using Neighbour = NeighbourSearch::Neighbour;
 using Query = NeighbourSearch::Query;
 constexpr double kNever = std::numeric_limits<double>::infinity();
-constexpr std::size_t kLeaves = 512;  // of a piece of work
+constexpr std::size_t kLeaves = 16;  // of a piece of work, after which a stop is noticed
 
 }  // namespace
 

@@ -43,7 +43,7 @@ class Search final : public NeighbourSearch {
   void first_between_parts(const Parts& parts, FirstEdges& first,
                            const RunContext& context) const override {
     // Pairs of subtrees, of which each is compared on one thread.
-    const Node roots = std::min<Node>(tree_.first_leaf(), 1 << 5);
+    const Node roots = std::min<Node>(tree_.first_leaf(), 1 << 7);
     for_each_piece("nearest parts", std::size_t{roots} * roots, 1, context,
                    [&](std::size_t i, std::size_t) {
                      const auto a = static_cast<Node>(roots + i / roots),
