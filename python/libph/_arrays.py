@@ -198,12 +198,14 @@ def as_float64(array: NDArray[Any], name: str, mask: NDArray[np.bool_] | None = 
     return numbers
 
 
-def require_room(needed: int, memory_limit: int | None, what: str) -> None:
-    """Refuses data whose conversion would take more memory than a computation may take."""
-    if memory_limit is not None and needed > memory_limit:
-        raise MemoryLimitError(f"memory limit of {in_units(memory_limit)} would be exceeded: the "
-                               f"conversion of {what} may take {in_units(needed)}; pass less data "
-                               "or a larger memory_limit")
+def require_room(needed: int, what: str,
+                 way_out: str = "pass less data or a larger memory_limit") -> None:
+    """Refuses data whose conversion, with the copies of input so far, would take more memory than
+    a computation may take."""
+    limit = _run.memory_limit({})
+    if limit is not None and needed > limit - sum(_run.copies()):
+        raise MemoryLimitError(f"memory limit of {in_units(limit)} would be exceeded: {what} "
+                               f"{in_units(needed)}; {way_out}")
 
 
 def _exceeds_memory(needed: int) -> bool:
@@ -212,19 +214,11 @@ def _exceeds_memory(needed: int) -> bool:
     return needed > _LARGE and needed > _core.memory_left()
 
 
-def _require_limit(needed: int, what: str, way_out: str) -> None:
-    """Refuses a large array that, with the copies of input so far, would exceed the limit."""
-    limit = _run.memory_limit({})
-    if limit is not None and needed > max(limit - sum(_run.copies()), _LARGE):
-        raise MemoryLimitError(f"memory limit of {in_units(limit)} would be exceeded: {what} takes "
-                               f"{in_units(needed)}; {way_out} or raise the limit")
-
-
 def new_array(shape: int | tuple[int, ...]) -> NDArray[np.float64]:
     """A new array of float64 to be filled in, within the memory that `limits` sets."""
     needed = math.prod(shape if isinstance(shape, tuple) else (shape,)) * 8
     if needed > _LARGE:
-        _require_limit(needed, f"a result of shape {shape}", "ask for less")
+        require_room(needed, f"a result of shape {shape} takes", "ask for less or raise the limit")
     if _exceeds_memory(needed):
         raise MemoryLimitError(f"found a result of shape {shape}, whose {needed} bytes would "
                                "exceed the available memory")
@@ -241,7 +235,8 @@ def _copied(array: NDArray[Any], dtype: DTypeLike, name: str) -> NDArray[Any]:
     """A copy of another type, in C order."""
     needed = array.size * np.dtype(dtype).itemsize
     if needed > _LARGE:
-        _require_limit(needed, f"a copy of {name} in {np.dtype(dtype)}", "pass less data")
+        require_room(needed, f"a copy of {name} in {np.dtype(dtype)} takes",
+                     "pass less data or raise the limit")
         _run.copies().append(needed)
     if _exceeds_memory(needed):
         raise MemoryLimitError(f"{name}: found {array.size} numbers of type {array.dtype}, whose "

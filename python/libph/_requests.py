@@ -29,8 +29,6 @@ def _within_limit(request_of: _RequestOf) -> _RequestOf:
     """The same function, whose copies of the input count towards the memory limit."""
     @functools.wraps(request_of)
     def limited(o: dict[str, Any]) -> Request:
-        if not o["run"] and not _run.DEFAULTS.get():
-            return request_of(o)
         if _run.memory_limit(o["run"]) is None:
             return request_of(o)
         with _run.within_limit(o["run"]) as copies:
@@ -186,8 +184,7 @@ def rips_request(o: dict[str, Any]) -> Request:
     """The request for X and all keywords of `rips`."""
     _run.check_names("rips", o["run"], o)
     source = source_of(o["X"], metric=o["metric"], minkowski_p=o["minkowski_p"], nan=o["nan"],
-                       diagonal=o["diagonal"], symmetrise=o["symmetrise"],
-                       memory_limit=_run.memory_limit(o["run"]))
+                       diagonal=o["diagonal"], symmetrise=o["symmetrise"])
     threshold = _threshold(o, 0)
     births, neighbours, exponent = _weights(o, source)
     is_weighted = births is not None or any(k is not None for k in neighbours.values())
@@ -368,7 +365,7 @@ def lower_star_request(o: dict[str, Any]) -> Request:
     """The request for values, simplices and all keywords of `lower_star`."""
     _run.check_names("lower_star", o["run"], o)
     values = _arrays.as_values(o["values"], "values")
-    cells = simplex_list(o["simplices"], memory_limit=_run.memory_limit(o["run"]))
+    cells = simplex_list(o["simplices"])
     recipe = _core.lower_star_recipe(cells.vertices, cells.offsets, values, _threshold(o))
     task = _task_of(o, _loops_of(o, "plain"))
     return Request(recipe, task, o["run"], lambda: _meta("lower-star", o, points=len(values)))
@@ -378,7 +375,7 @@ def lower_star_request(o: dict[str, Any]) -> Request:
 def filtered_request(o: dict[str, Any]) -> Request:
     """The request for simplices, values and all keywords of `filtered`."""
     _run.check_names("filtered", o["run"], o)
-    cells = simplex_list(o["simplices"], memory_limit=_run.memory_limit(o["run"]))
+    cells = simplex_list(o["simplices"])
     values = joined_values(o["values"], len(cells))
     recipe = _core.simplices_recipe(cells.vertices, cells.offsets, values, _threshold(o))
     task = _task_of(o, _loops_of(o, "plain"))
@@ -397,8 +394,8 @@ def boundary_request(o: dict[str, Any]) -> Request:
         raise UsageError(f"matrix: found shape {matrix.shape}, expected a square one: a row and a "
                          "column for each cell")
     # The copies of Python and of the library take at most this much.
-    _arrays.require_room(64 * matrix.nnz + 64 * matrix.shape[0], _run.memory_limit(o["run"]),
-                         f"the {matrix.nnz} entries of matrix")
+    _arrays.require_room(64 * matrix.nnz + 64 * matrix.shape[0],
+                         f"the conversion of the {matrix.nnz} entries of matrix may take")
     columns = matrix.tocsc(copy=True)
     columns.sum_duplicates()
     incidences = _arrays.as_integers(columns.data, "matrix")

@@ -35,7 +35,7 @@ class RunOptions(TypedDict, total=False):
 
 
 _NAMES = ("threads", "memory_limit", "progress", "timeout", "stop")
-DEFAULTS: ContextVar[dict[str, Any]] = ContextVar("libph.limits", default={})
+_DEFAULTS: ContextVar[dict[str, Any]] = ContextVar("libph.limits", default={})
 _COPIES: ContextVar[list[int] | None] = ContextVar("libph.copies", default=None)
 _PLAIN = _core.RunOptions(0, None, None, None, None, 0)
 
@@ -70,11 +70,11 @@ def limits(*, memory: int | str | None = None, threads: int | None = None,
     given = {"memory_limit": memory, "threads": threads, "timeout": timeout, "progress": progress}
     chosen = {name: value for name, value in given.items() if value is not None}
     _check(chosen)
-    token = DEFAULTS.set({**DEFAULTS.get(), **chosen})
+    token = _DEFAULTS.set({**_DEFAULTS.get(), **chosen})
     try:
         yield
     finally:
-        DEFAULTS.reset(token)
+        _DEFAULTS.reset(token)
 
 
 @contextlib.contextmanager
@@ -88,13 +88,13 @@ def within_limit(options: Mapping[str, Any]) -> Iterator[list[int]]:
     if limit is None:
         yield counted
         return
-    default = DEFAULTS.set({**DEFAULTS.get(), "memory_limit": limit})
+    default = _DEFAULTS.set({**_DEFAULTS.get(), "memory_limit": limit})
     count = _COPIES.set(counted)
     try:
         yield counted
     finally:
         _COPIES.reset(count)
-        DEFAULTS.reset(default)
+        _DEFAULTS.reset(default)
 
 
 def copies() -> list[int]:
@@ -110,7 +110,7 @@ def run(function: Callable[..., _Result], *arguments: Any, options: dict[str, An
     `options` are the keywords that the user gave. `copied` are the bytes of copies of the input,
     which count towards the memory limit.
     """
-    defaults = DEFAULTS.get()
+    defaults = _DEFAULTS.get()
     if not options and not defaults and not slab_layers:
         return function(*arguments, _PLAIN)
     given = _check({**defaults, **{k: v for k, v in options.items() if v is not None}})
@@ -128,7 +128,7 @@ def rounds(stage: str, total: int, options: Mapping[str, Any]) -> Iterator[Itera
 
     `options` are the keywords that the user gave.
     """
-    given = {**DEFAULTS.get(), **{k: v for k, v in options.items() if v is not None}}
+    given = {**_DEFAULTS.get(), **{k: v for k, v in options.items() if v is not None}}
     checked = _check(given)
     seconds, stop, progress = (checked.get(name) for name in ("timeout", "stop", "progress"))
     end = time.monotonic() + (seconds or 0)
@@ -142,26 +142,26 @@ def rounds(stage: str, total: int, options: Mapping[str, Any]) -> Iterator[Itera
                 if left <= 0:
                     raise Timeout(f"timeout: not finished after {seconds:g} s; a larger timeout or "
                                   f"fewer {stage} may help")
-                DEFAULTS.set({**given, "progress": False, "timeout": left})
+                _DEFAULTS.set({**given, "progress": False, "timeout": left})
             if report is not None:
                 report(stage, i, total)
             yield i
         if report is not None:
             report(stage, total, total)
 
-    token = DEFAULTS.set({**given, "progress": False})
+    token = _DEFAULTS.set({**given, "progress": False})
     try:
         with _bar() if progress is True else contextlib.nullcontext(progress) as report:
             yield numbers(report)
     finally:
-        DEFAULTS.reset(token)
+        _DEFAULTS.reset(token)
 
 
 def memory_limit(options: Mapping[str, Any]) -> int | None:
     """The memory that a computation with these keywords may take, in bytes, if it is limited."""
     limit = options.get("memory_limit")
     if limit is None:
-        limit = DEFAULTS.get().get("memory_limit")
+        limit = _DEFAULTS.get().get("memory_limit")
     return None if limit is None else _options.size("memory_limit", limit)
 
 

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from . import _arrays
+from . import _arrays, _run
 from ._errors import DataError, UsageError
 
 
@@ -22,10 +22,9 @@ class SimplexList(NamedTuple):
         return len(self.offsets) - 1
 
 
-def simplex_list(simplices: Any, name: str = "simplices",
-                 memory_limit: int | None = None) -> SimplexList:
+def simplex_list(simplices: Any, name: str = "simplices") -> SimplexList:
     """Accepts an array with one simplex per row, a list of such arrays, or a list of vertex
-    tuples. A list is refused if its conversion could take more than `memory_limit` bytes."""
+    tuples. A list is refused if its conversion could take more than the memory limit."""
     if isinstance(simplices, SimplexList):
         return simplices
     if isinstance(simplices, (str, bytes, dict)) or not isinstance(simplices, Iterable) or (
@@ -35,25 +34,26 @@ def simplex_list(simplices: Any, name: str = "simplices",
                          "simplex per row, a list of such arrays, or a list of tuples of vertices"
                          + _hints.of_object(simplices))
     if hasattr(simplices, "__array__"):
-        _require_room([simplices], memory_limit, name)
+        _require_room([simplices], name)
         return _joined([_of_array(simplices, name)])
     items = list(simplices)
-    _require_room(items, memory_limit, name)
+    _require_room(items, name)
     if items and all(getattr(item, "ndim", 0) == 2 for item in items):
         return _joined([_of_array(item, f"{name}[{k}]") for k, item in enumerate(items)])
     return _of_tuples(items, name)
 
 
-def _require_room(items: list[Any], memory_limit: int | None, name: str) -> None:
+def _require_room(items: list[Any], name: str) -> None:
     """`items` are arrays, or tuples of vertices. The list, its copy in the library and the values
     of the simplices take at most 24 bytes per vertex and 40 bytes per simplex."""
-    if memory_limit is None:
+    if _run.memory_limit({}) is None:
         return
     rows = [np.shape(item) if hasattr(item, "__array__") else
             (1, len(item) if hasattr(item, "__len__") else 1) for item in items]
     count = sum(shape[0] if shape else 1 for shape in rows)
     vertices = sum(int(np.prod(shape)) for shape in rows)
-    _arrays.require_room(24 * vertices + 40 * count, memory_limit, f"the {count} {name}")
+    _arrays.require_room(24 * vertices + 40 * count,
+                         f"the conversion of the {count} {name} may take")
 
 
 def _of_array(array: Any, name: str) -> SimplexList:

@@ -32,11 +32,11 @@ class Source(NamedTuple):
 
 def source_of(X: Any, *, metric: Any = "euclidean", minkowski_p: Any = 2.0, nan: Any = "error",
               diagonal: Any = "zero", symmetrise: Any = None,
-              has_nan_option: bool = True, memory_limit: int | None = None) -> Source:
+              has_nan_option: bool = True) -> Source:
     """Makes a metric space from the user's data; a Source is returned unchanged.
 
     For a function without an option `nan`, messages do not name this option. A sparse matrix is
-    refused if its conversion could take more than `memory_limit` bytes.
+    refused if its conversion could take more than the memory limit.
     """
     if isinstance(X, Source):
         return X
@@ -52,7 +52,7 @@ def source_of(X: Any, *, metric: Any = "euclidean", minkowski_p: Any = 2.0, nan:
         raise UsageError(f"minkowski_p: does nothing for {found}, expected metric='minkowski'")
     if name == "precomputed":
         if _arrays.is_sparse(X):
-            return _of_sparse(X, nan, diagonal, symmetrise, memory_limit)
+            return _of_sparse(X, nan, diagonal, symmetrise)
         return _of_matrix(X, nan, diagonal, symmetrise)
     if diagonal != "zero" or symmetrise is not None:
         option = "diagonal" if diagonal != "zero" else "symmetrise"
@@ -191,13 +191,13 @@ def _zero_of_diagonals(matrix: Any) -> tuple[int, int] | None:
     return None
 
 
-def _of_sparse(X: Any, nan: str | None, diagonal: str, symmetrise: str | None,
-               memory_limit: int | None) -> Source:
+def _of_sparse(X: Any, nan: str | None, diagonal: str, symmetrise: str | None) -> Source:
     """Reads both triangles. Stored zeros are distances; pairs that are not stored are never
     joined."""
     if len(X.shape) != 2 or X.shape[0] != X.shape[1]:
         raise UsageError(f"X: found a sparse matrix of shape {X.shape}, expected a square one")
-    _arrays.require_room(_BYTES_PER_ENTRY * X.nnz, memory_limit, f"the {X.nnz} entries of X")
+    _arrays.require_room(_BYTES_PER_ENTRY * X.nnz,
+                         f"the conversion of the {X.nnz} entries of X may take")
     # Indices keep their type, which is int32 in most matrices, until the pairs are unique.
     coo = coordinates(X, "X")
     row, column, values = coo.row, coo.col, _arrays.as_float64(coo.data, "X")

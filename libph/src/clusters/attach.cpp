@@ -74,7 +74,7 @@ class JointPoints {
     for (std::size_t q = 0; q < tree.size(); ++q) of_point[q] = tree.rows()[q] >= first_;
     NeighbourSearch::Parts::find_nodes(tree, of_point, of_node);
     const NeighbourSearch::Parts parts{of_point, of_node};
-    for_each_piece(stage, tree.first_leaf(), 128, context, [&](std::size_t begin, std::size_t end) {
+    for_each_piece(stage, tree.first_leaf(), 16, context, [&](std::size_t begin, std::size_t end) {
       std::vector<Neighbour> found(KdTree::kLeafSize * count);
       NeighbourSearch::Query query{.k = count, .parts = &parts};
       for (std::size_t i = begin; i < end; ++i) {

@@ -81,7 +81,7 @@ void for_each_nearest(PointsView points, Index k, PointDistance distance, double
       }
     }
   };
-  for_each_piece(stage, tree.first_leaf(), 128, context, find);
+  for_each_piece(stage, tree.first_leaf(), 16, context, find);
 }
 
 }  // namespace ph::detail

@@ -21,7 +21,7 @@ from ._steps import PiecewiseLinear, StepFunction, refuse_nan
 def _require_room(bars: int) -> None:
     """Refuses a curve of so many bars if it would exceed the limit of the current block."""
     per_bar = 112  # bytes of a bar, its ends while they are sorted, and the steps there
-    _arrays.require_room(per_bar * bars, _run.memory_limit({}), f"the {bars} bars")
+    _arrays.require_room(per_bar * bars, f"the conversion of the {bars} bars may take")
 
 
 @_options.with_hints

@@ -13,7 +13,7 @@ from sklearn.base import BaseEstimator, ClusterMixin
 from sklearn.exceptions import ConvergenceWarning
 from sklearn.neighbors import NearestNeighbors
 
-from .. import _arrays, _options, _run
+from .. import _arrays, _options
 from .._compute import filtered
 from .._errors import UsageError
 from .._points import root_mean_square
@@ -208,8 +208,8 @@ def _hills_of(function: _Numbers, neighbours: _Integers) -> _Hills:
     """Computes the hills. All steps use the ranks of the points, so that their numbers break
     ties."""
     n = len(function)
-    _arrays.require_room(_BYTES_PER_NEIGHBOUR * neighbours.size, _run.memory_limit({}),
-                         f"the {neighbours.size} neighbours")
+    _arrays.require_room(_BYTES_PER_NEIGHBOUR * neighbours.size,
+                         f"the conversion of the {neighbours.size} neighbours may take")
     order = np.argsort(function, kind="stable")
     rank = np.empty(n, dtype=np.int64)
     rank[order] = np.arange(n)

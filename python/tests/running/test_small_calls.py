@@ -25,7 +25,7 @@ CALLS = {
     "cubical": (lambda: ph.cubical(X), 65),
     "dgms": (lambda: ph.rips(X).dgms(), 100),
     "ripser": (lambda: ripser.ripser(DISTANCES, distance_matrix=True), 95),
-    "gudhi.rips": (lambda: rips_tree().persistence(), 86),
+    "gudhi.rips": (lambda: rips_tree().persistence(), 85),
     "gudhi.cubical": (lambda: gudhi.CubicalComplex(top_dimensional_cells=X).persistence(), 72),
 }
 

@@ -90,10 +90,10 @@ class OptionsTest(ProgramTest):
         self.assertEqual(one.stdout, two.stdout)
 
     def test_progress_and_signals(self):
-        arguments = self.cloud(8000, 12)  # all pairs are compared
+        arguments = self.cloud(24_000, 12)  # all pairs are compared
         run = self.expect(0, *arguments, "--progress", "json", "--quiet", "-o", "x.csv")
         stages = [json.loads(line)["stage"] for line in run.stderr.splitlines()]
-        self.assertIn("nearest parts", stages)
+        self.assertIn("core distances", stages)
         with subprocess.Popen([program.PROGRAM, *self.cloud(40_000, 12), "-o", "y.csv", "--quiet"], cwd=self.folder,
                               stderr=subprocess.PIPE) as run:
             time.sleep(0.3)
