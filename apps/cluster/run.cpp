@@ -72,8 +72,9 @@ std::array<double, 2> bytes_beside(const Loaded& loaded, const Arguments& a, Ind
   const auto n = static_cast<double>(loaded.points);
   const auto points = app::points_of(loaded.read);
   if (points && has_fast_spanning_forest(*points, a.rips.distance)) {
-    // The tree has two copies of the coordinates, if there are more than three.
-    const double copies = 2 * sizeof(double) * static_cast<double>(points->cols());
+    // With more than three coordinates, there are two copies of them, which are not in the numbers.
+    const Index axes = points->cols() > 3 ? points->cols() : 0;
+    const double copies = 2 * sizeof(double) * static_cast<double>(axes);
     return {(90 + copies) * n, (220 + copies) * n};
   }
   if (const auto* some = std::get_if<SparseDistances>(&loaded.read.data)) {

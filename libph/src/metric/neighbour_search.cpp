@@ -372,21 +372,6 @@ void NeighbourSearch::Parts::find_nodes(const KdTree& tree, std::span<const std:
   }
 }
 
-NeighbourSearch::FirstEdges::FirstEdges(std::size_t parts, double limit, const RunContext& context)
-    : parts_(parts),
-      edges_(parts * parts, FlagEdge{limit, kNone, kNone}, &context.memory),
-      values_(parts * parts, &context.memory) {
-  for (auto& value : values_) value.store(limit, std::memory_order_relaxed);
-}
-
-void NeighbourSearch::FirstEdges::offer(std::uint32_t a, std::uint32_t b, const FlagEdge& edge) {
-  const std::lock_guard lock(mutex_);
-  FlagEdge& first = edges_[place(a, b)];
-  if (!precedes(edge, first)) return;  // mutant: first-edges
-  first = edge;
-  values_[place(a, b)].store(edge.value, std::memory_order_relaxed);
-}
-
 std::unique_ptr<NeighbourSearch> NeighbourSearch::make(const KdTree& tree,
                                                        const PointMetric& metric,
                                                        PointDistance distance, double p,

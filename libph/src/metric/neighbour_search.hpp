@@ -2,18 +2,15 @@
 #pragma once
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <limits>
 #include <memory>
 #include <memory_resource>
-#include <mutex>
-#include <optional>
 #include <span>
 #include <vector>
 
-#include "ph/detail/core/flag_filtration.hpp"
+#include "libph/src/metric/first_edges.hpp"
 #include "ph/detail/metric/kd_tree.hpp"
 #include "ph/detail/metric/metric.hpp"
 
@@ -94,31 +91,6 @@ class NeighbourSearch {
   /// neighbour have kNone.
   virtual void nearest(const Query& query, std::span<Neighbour> found) const = 0;
 
-  /// For each pair of parts, the first edge between them, in the order of the filtration. Several
-  /// threads may offer edges at once.
-  class FirstEdges {
-   public:
-    /// @param limit longer edges are not taken.
-    FirstEdges(std::size_t parts, double limit, const RunContext& context);
-    /// No edge with a larger value is needed.
-    double value(std::uint32_t a, std::uint32_t b) const {
-      return values_[place(a, b)].load(std::memory_order_relaxed);
-    }
-    void offer(std::uint32_t a, std::uint32_t b, const FlagEdge& edge);
-    std::optional<FlagEdge> edge(std::uint32_t a, std::uint32_t b) const {
-      const FlagEdge& first = edges_[place(a, b)];
-      return first.u == kNone ? std::nullopt : std::optional(first);
-    }
-
-   private:
-    std::size_t place(std::uint32_t a, std::uint32_t b) const {
-      return std::max(a, b) * parts_ + std::min(a, b);
-    }
-    std::size_t parts_;
-    std::pmr::vector<FlagEdge> edges_;
-    std::pmr::vector<std::atomic<double>> values_;
-    std::mutex mutex_;
-  };
   /// Finds the first edge between each pair of parts, which are 0, 1, … O(n²) time, in which boxes
   /// rule out pairs of nodes.
   virtual void first_between_parts(const Parts& parts, FirstEdges& first,

@@ -235,7 +235,7 @@ class Boruvka {
     const std::pmr::vector<std::uint32_t> of_root(part, &context_.memory);
     for (Position p = 0; p < part.size(); ++p) part[p] = of_root[component_[p]];
     Parts::find_nodes(tree_, part, node_component_);
-    NeighbourSearch::FirstEdges first(parts, limit_, context_);
+    FirstEdges first(parts, limit_, context_);
     search_.first_between_parts({part, node_component_}, first, context_);
     struct Edge : FlagEdge {
       std::uint32_t a, b;  // parts

@@ -232,8 +232,8 @@ void check_options(const RipsData& data, const RipsOptions& options, const RunCo
     PointMetric(points->view, options.distance, options.minkowski_p);
 }
 
-std::optional<RipsGraph> core_forest(const RipsData& data, const RipsOptions& options,
-                                     const RunContext& context) {
+std::optional<RipsGraph> make_core_forest(const RipsData& data, const RipsOptions& options,
+                                          const RunContext& context) {
   constexpr Index most_neighbours = 16;  // all points keep their neighbours until the last search
   const auto* points = std::get_if<HeldPoints>(&data);
   const Index k = options.core_neighbours.value_or(0);

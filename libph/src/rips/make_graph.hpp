@@ -45,8 +45,8 @@ RipsGraph make_graph(const RipsData& data, const RipsOptions& options, RipsForm 
 /// Makes a spanning forest with core distances as births, which are found in the same search. Null
 /// if the data or the options need something else. Precondition: check_options has passed.
 /// @throws Error as Rips::graph does.
-std::optional<RipsGraph> core_forest(const RipsData& data, const RipsOptions& options,
-                                     const RunContext& context);
+std::optional<RipsGraph> make_core_forest(const RipsData& data, const RipsOptions& options,
+                                          const RunContext& context);
 
 /// Does the work of Rips::sample.
 RipsSample sample_of(const RipsData& data, const RipsOptions& options, const RunContext& context);

@@ -194,7 +194,7 @@ struct Rips::State {
   std::unique_ptr<const detail::MadeForm> make(RipsForm form, const RunContext& call) const {
     auto made = std::make_unique<detail::MadeForm>(*context, call);
     if (form == RipsForm::forest) {
-      if (std::optional<RipsGraph> forest = core_forest(data(), options, made->context)) {
+      if (std::optional<RipsGraph> forest = make_core_forest(data(), options, made->context)) {
         made->graph = std::move(forest);
         made->settle();
         return made;
