@@ -325,10 +325,11 @@ allow_single_cluster, max_cluster_size
         Each subsample is drawn without replacement and clustered with the same parameters, except
         that the sizes of clusters and `min_samples`, without the point itself, are multiplied by
         `fraction`. Each cluster is compared with the most similar cluster of the subsample: the
-        Jaccard similarity is the number of sampled points in both, divided by the number of those
-        in either (Hennig, Cluster-wise assessment of cluster stability, 2007). A cluster with a
-        mean below 0.6 should not be trusted, one from 0.75 on is stable, and one from 0.85 on is
-        highly stable. This is not the stability of HDBSCAN*, which libph calls mass.
+        Jaccard similarity is the number of sampled points in both, divided by the number of sampled
+        points in at least one (Hennig, Cluster-wise assessment of cluster stability, 2007). The
+        manual of his R package fpc says: do not trust a cluster with a mean below 0.6; from 0.75 on
+        it is stable, and from 0.85 on highly stable. This is not the stability of HDBSCAN*, which
+        libph calls mass.
 
         Parameters
         ----------
