@@ -63,20 +63,22 @@ def cell(row, name):
 def caption(rows, root):
     """The origin of the rows: script, machine, date and versions. If rows have different origins,
     the text states each difference and the rows that it concerns."""
-    sentences, first, usual = [], 1, []
+    usual, first, others = [], 1, {}
     for origin, group in itertools.groupby(rows, lambda row: [row[name] for name in SOURCE]):
         last = first + len(list(group)) - 1
-        if not any(origin):
-            first = last + 1
-            continue
-        if not (root / origin[0]).is_file():
-            raise SystemExit(f"{origin[0]}: found no such script")
-        said = [f"`{origin[0]}`", *origin[1:]]
-        which = "" if not usual else f"Row {first}: " if first == last else f"Rows {first} to {last}: "
-        other = [words for words in said if words and words not in usual]
-        if other:
-            sentences.append(which + "; ".join(other) + ".")
-        usual, first = usual or said, last + 1
+        if any(origin):
+            if not (root / origin[0]).is_file():
+                raise SystemExit(f"{origin[0]}: found no such script")
+            said = [f"`{origin[0]}`", *origin[1:]]
+            usual = usual or said
+            if other := tuple(words for words in said if words and words not in usual):
+                others.setdefault(other, []).append(
+                    str(first) if first == last else f"{first} to {last}")
+        first = last + 1
+    sentences = ["; ".join(filter(None, usual)) + "."] if usual else []
+    for other, ranges in others.items():
+        which = "Rows" if len(ranges) > 1 or " " in ranges[0] else "Row"
+        sentences.append(f"{which} {', '.join(ranges)}: {'; '.join(other)}.")
     return textwrap.fill(" ".join(sentences), 100, break_long_words=False, break_on_hyphens=False)
 
 

@@ -70,10 +70,8 @@ Scene clear_scene(const CloudView& cloud, const SegmentOptions& options, StageCl
     search = find_support(cloud, in_range, scene.margin, sample, options.plane_guess);
   }
   PlaneSearch& support = search.support;
-  if (!is_paper && options.plane_noise > 0) {
-    constexpr double deviations = 4;
-    scene.margin.noise = std::max(scene.margin.noise, deviations * support.noise);
-  }
+  if (!is_paper && options.plane_noise > 0)
+    scene.margin.noise = std::max(scene.margin.noise, kDeviations * support.noise);
   scene.noise = support.noise_along;
   scene.range = support.range;
   result.tree.plane = scene.plane = support.plane;

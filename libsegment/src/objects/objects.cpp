@@ -79,11 +79,10 @@ class HiddenJoins {
   // In metres; behind a wider occluder, a join would only be a guess.
   static constexpr double kLongestGap = 0.15;
 
-  /// Clears a border that has too few voxels. In any other border, keeps a limited number of evenly
-  /// spread voxels, because the decision about parts depends only on shares of the voxels.
+  /// Keeps a limited number of evenly spread voxels, because the decision about parts depends only
+  /// on shares of the voxels.
   static void thin_out(Border& border) {
-    constexpr std::size_t fewest = 5, most = 60;
-    if (border.size() < fewest) border.clear();
+    constexpr std::size_t most = 60;
     const std::size_t step = border.size() / most + 1;
     std::size_t kept = 0;
     for (std::size_t i = 0; i < border.size(); i += step) border[kept++] = border[i];

@@ -14,8 +14,6 @@ namespace {
 constexpr std::size_t kMostLookedAt = 20000;
 // The side, in margins, of the square of the plane that a point represents.
 constexpr double kCell = 4;
-// A share of the points. If fewer points are behind the plane, nothing else is examined.
-constexpr double kFewBehind = 0.1;
 
 }  // namespace
 
@@ -47,7 +45,6 @@ PlaneSight sight_past(const CloudView& cloud, const std::vector<Index>& points, 
   PlaneSight sight;
   if (through.empty()) return sight;
   sight.behind = static_cast<double>(through.size()) / off;
-  if (sight.behind < kFewBehind) return sight;
   std::set<std::array<double, 2>> covered;
   for (const float* p : on) covered.insert(squares.of({p[0], p[1], p[2]}));
   const auto hidden = std::ranges::count_if(

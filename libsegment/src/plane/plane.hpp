@@ -51,6 +51,9 @@ inline constexpr double kThickestBoard = 0.05;
 /// Points nearer to a plane than this number of margins may belong to the plane itself.
 inline constexpr double kMarginsOfPlane = 2;
 
+/// Noise puts a point so many standard deviations off its plane at most.
+inline constexpr double kDeviations = 4;
+
 /// A plane with a smaller share of the points supports nothing.
 inline constexpr double kLeastShareOfSupport = 0.1;
 
@@ -84,7 +87,8 @@ struct SupportSearch {
 /// plane may be a wall; of this plane and the next largest ones, the support is then the plane that
 /// most things touch from above. There is no support if the surface goes on behind the largest
 /// plane, which is then a face of an object. There is also none if this plane is smaller than a
-/// table and nothing stands on it. @param points indices into the cloud, none of them a hole.
+/// table and either nothing stands on it or it is thick for its size, as a curved surface is.
+/// @param points indices into the cloud, none of them a hole.
 /// @param sample a sample of these points. @param guess as for find_plane.
 SupportSearch find_support(const CloudView& cloud, const std::vector<Index>& points,
                            const PlaneMargin& margin, const Sample& sample,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -18,6 +19,14 @@ Extent extent_of(const PlaneSearch& search, const Sample& sample, double side = 
   Extent extent(*search.plane, side * std::max(1.0, search.range));
   for (std::size_t i = 0; i < sample.size(); ++i) extent.add(sample[i], sample.limits[i]);
   return extent;
+}
+
+/// True if the points just behind a plane are farther from it than noise would put them on a plane
+/// of this size. They are then on a curved surface, such as the wall of a can.
+bool is_curved(const PlaneSearch& search, const Extent& extent) {
+  constexpr double thickest = 0.1;  // as a share of the side of a square with the same area
+  const double margin = kDeviations * search.noise * search.range * search.range;
+  return margin > thickest * std::sqrt(extent.area());
 }
 
 /// Adds the largest planes of some points, without faces of objects. @param rest a sample of points
@@ -126,11 +135,18 @@ SupportSearch find_support(const CloudView& cloud, const std::vector<Index>& poi
   const Extent extent = extent_of(largest, sample);
   if (extent.goes_on_behind())  // mutant: support-face
     return {{std::nullopt, "no plane: the surface goes on behind the largest candidate"}, {}};
-  // mutant: support-alone
-  if (extent.area() < kLeastTable && !extent_of(largest, sample, kFineSide).has_things_on_it())
-    return {{std::nullopt,
-             "no plane: the largest candidate is smaller than a table, and nothing is on it"},
-            {}};
+  if (extent.area() < kLeastTable) {
+    const Extent fine = extent_of(largest, sample, kFineSide);
+    if (!fine.has_things_on_it())  // mutant: support-alone
+      return {{std::nullopt,
+               "no plane: the largest candidate is smaller than a table, and nothing is on it"},
+              {}};
+    if (is_curved(largest, fine))  // mutant: support-curved
+      return {
+          {std::nullopt,
+           "no plane: the largest candidate is smaller than a table, and its surface is curved"},
+          {}};
+  }
   std::vector<PlaneSearch> planes{largest};
   const auto share_of = [](std::size_t some, std::size_t all) {
     return static_cast<double>(some) / static_cast<double>(all);

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MIT
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
+#include <random>
+#include <vector>
 
 #include "ph/error.hpp"
 #include "ph/label_tracker.hpp"
@@ -46,6 +50,37 @@ TEST(Support, IsNotACardInTheAir) {
   const Segmentation with_cube = Room({tray, cube}).segmented();
   EXPECT_TRUE(with_cube.tree.plane);
   EXPECT_EQ(with_cube.cut.segments.size(), 1U);
+}
+
+/// A sampled can without a table, 20 cm high and 80 cm in front of the sensor: points on the nearer
+/// part of its wall, in no order.
+std::vector<float> wall_of_can(double radius, double noise, double angle, unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> around(-angle, angle), up(-0.1, 0.1);
+  std::normal_distribution<double> gauss(0, noise);
+  std::vector<float> xyz;
+  for (int i = 0; i < 10000; ++i) {
+    const double a = around(random);
+    for (const double x : {radius * std::sin(a), up(random), 0.8 - radius * std::cos(a)})
+      xyz.push_back(static_cast<float>(noise > 0 ? x + gauss(random) : x));
+  }
+  return xyz;
+}
+
+TEST(Support, IsNotTheWallOfACan) {
+  constexpr double half = std::numbers::pi / 2;
+  for (const double radius : {0.03, 0.04, 0.06})
+    for (const double noise : {0.0, 0.001})
+      for (const double angle : {half, half + 0.12, 2 * half})
+        for (unsigned seed = 0; seed < 5; ++seed) {
+          SCOPED_TRACE(fmt::format("{} {} {} {}", radius, noise, angle, seed));
+          const std::vector<float> xyz = wall_of_can(radius, noise, angle, seed);
+          const auto points = static_cast<Index>(xyz.size() / 3);
+          const Segmentation s = segment(CloudView{.xyz = xyz});
+          Index kept = 0;
+          for (const Segment& found : s.cut.segments) kept += found.points;
+          EXPECT_GT(kept, points * 9 / 10) << s.plane_note;
+        }
 }
 
 // ---- from frame to frame
