@@ -120,11 +120,12 @@ void detail::check(const GreedyLimits& limits, Index size) {
 
 GreedyPermutation greedy_permutation(PointsView points, const GreedyLimits& limits,
                                      PointDistance distance, double p, const RunContext& context) {
-  const PointMetric metric(points, distance, p);
+  PointMetric metric(points, distance, p);
   detail::check(limits, points.rows());
   if (distance == PointDistance::euclidean) {
     if (auto result = by_squares(points, limits, context)) return *std::move(result);
   }
+  metric.keep_directions(context);
   return greedy_permutation(metric, limits, context);
 }
 

@@ -46,13 +46,14 @@ void compare_rows(const PointMetric& metric, Index k, std::string_view stage, co
 
 void for_each_nearest(PointsView points, Index k, PointDistance distance, double p,
                       std::string_view stage, const UseNearest& use, const RunContext& context) {
-  const PointMetric checked(points, distance, p);
+  PointMetric checked(points, distance, p);
   points = checked.points();  // now the rows are contiguous
   // A list of neighbours is kept sorted while it grows. If the lists are longer than this,
   // computing all distances is faster.
   constexpr Index most_neighbours = 512;
   if (k == 0 || k > most_neighbours || points.cols() == 0 ||
       !has_fast_spanning_forest(points, distance)) {
+    checked.keep_directions(context);
     constexpr Index longest_list = 64;  // insertions into longer lists cost more than they save
     if (0 < k && k <= longest_list)
       compare_rows(checked, k, stage, use, context);

@@ -139,6 +139,42 @@ double PointMetric::operator()(Index i, Index j) const {
   return d;
 }
 
+/// The directions of some points, one per row.
+class PointMetric::Directions {
+ public:
+  Directions(PointsView points, const RunContext& context)
+      : claim_(context.memory, static_cast<std::size_t>(points.size()) * sizeof(double)),
+        rows_(points.rows(), points.cols()) {
+    for (Index i = 0; i < points.rows(); ++i) {
+      context.poll();
+      const Direction along(points.row(i), points.cols());
+      for (Index k = 0; k < points.cols(); ++k) rows_(i, k) = along(k);
+    }
+  }
+  const double* row(Index i) const { return rows_.row(i).data(); }
+
+ private:
+  MemoryClaim claim_;
+  Points rows_;
+};
+
+void PointMetric::keep_directions(const RunContext& context) {
+  if (distance_ == PointDistance::cosine)
+    directions_ = std::make_shared<const Directions>(points(), context);
+}
+
+/// The distance also equals |x/|x| - y/|y||^2 / 2. This form keeps its digits for small angles.
+double PointMetric::cosine(Index i, Index j) const {
+  const Index d = points().cols();
+  const auto half_of_square = [d](const auto& x, const auto& y) {
+    return sum_in_lanes(d, [&](Index k) { return (x(k) - y(k)) * (x(k) - y(k)); }) / 2;
+  };
+  if (!directions_)
+    return half_of_square(Direction(points().row(i), d), Direction(points().row(j), d));
+  const double *x = directions_->row(i), *y = directions_->row(j);
+  return half_of_square([x](Index k) { return x[k]; }, [y](Index k) { return y[k]; });
+}
+
 double PointMetric::other(Index i, Index j) const {
   const double* x = points().row(i);
   const double* y = points().row(j);
@@ -156,17 +192,8 @@ double PointMetric::other(Index i, Index j) const {
       for (Index k = 0; k < d; ++k) sum += std::pow(difference(k) / largest, p_);
       return largest * std::pow(sum, 1 / p_);
     }
-    case PointDistance::cosine: {
-      // The distance also equals |x/|x| - y/|y||^2 / 2. This form keeps its digits for small
-      // angles.
-      const Direction along_x(x, d), along_y(y, d);
-      return sum_in_lanes(d,
-                          [&](Index k) {
-                            const double t = along_x(k) - along_y(k);
-                            return t * t;
-                          }) /
-             2;
-    }
+    case PointDistance::cosine:
+      return cosine(i, j);
     case PointDistance::hamming: {
       Index count = 0;
       for (Index k = 0; k < d; ++k) count += x[k] != y[k] ? 1 : 0;

@@ -56,13 +56,15 @@ RipsGraph forest_of_points(PointsView points, const RipsOptions& options,
       has_fast_spanning_forest(points, options.distance))
     return RipsGraph::forest_of_points(points, options.distance, options.minkowski_p,
                                        weights.births(), options.threshold, context);
-  return RipsGraph::forest_of_metric(PointMetric(points, options.distance, options.minkowski_p),
-                                     options.threshold, context, weights);
+  PointMetric metric(points, options.distance, options.minkowski_p);
+  metric.keep_directions(context);
+  return RipsGraph::forest_of_metric(metric, options.threshold, context, weights);
 }
 
 RipsGraph edges_of_points(PointsView points, const RipsOptions& options,
                           const VertexWeights& weights, const RunContext& context) {
-  const PointMetric metric(points, options.distance, options.minkowski_p);
+  PointMetric metric(points, options.distance, options.minkowski_p);
+  metric.keep_directions(context);
   if (options.approximation) {
     const GreedyPermutation order =
         greedy_permutation(points, {}, options.distance, options.minkowski_p, context);

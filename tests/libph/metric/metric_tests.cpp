@@ -112,6 +112,28 @@ TEST(PointMetrics, TheEndsOfTheRangeOfDouble) {
   EXPECT_NEAR(distance(cosine, {1e-300, 0}, {1e300, 1e300}), 1 - std::sqrt(0.5), 1e-15);
 }
 
+TEST(PointMetrics, KeptDirectionsChangeNothingAndAreCounted) {
+  const Points points = rows({{1, 2, 3, 4, 5},
+                              {-2, 1, 0.1, 7, 1e-9},
+                              {3e200, 1, 0, 0, 1e199},
+                              {1e-300, 2e-300, 0, 0, 0},
+                              {0.3, 0.6, 0.9, 1.2, 1.5}});
+  const PointMetric plain(points, PointDistance::cosine);
+  RunContext context;
+  {
+    PointMetric kept(points, PointDistance::cosine);
+    kept.keep_directions(context);
+    EXPECT_EQ(context.memory.used(), 25 * sizeof(double));
+    const PointMetric copy = kept;
+    for (Index i = 0; i < points.rows(); ++i)
+      for (Index j = 0; j < points.rows(); ++j) EXPECT_EQ(copy(i, j), plain(i, j)) << i << ' ' << j;
+  }
+  EXPECT_EQ(context.memory.used(), 0U);
+  PointMetric euclidean(points);
+  euclidean.keep_directions(context);
+  EXPECT_EQ(context.memory.used(), 0U) << "only cosine has directions";
+}
+
 TEST(PointMetrics, RefuseWhatTheyCannotMeasure) {
   using enum PointDistance;
   for (const PointDistance name : {euclidean, manhattan, chebyshev, minkowski})

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <concepts>
+#include <memory>
 #include <string>
 
 #include "ph/detail/core/names.hpp"
 #include "ph/filtration.hpp"
 #include "ph/points.hpp"
+#include "ph/run_context.hpp"
 
 namespace ph {
 
@@ -102,6 +104,11 @@ class PointMetric {
   explicit PointMetric(PointsView points, PointDistance distance = PointDistance::euclidean,
                        double p = 2, double largest = 0);
 
+  /// Computes the direction of each point once, instead of once per distance, if the distance is
+  /// `cosine`. The distances stay equal to the last bit. The directions take as much memory as the
+  /// points. Copies of this object share them.
+  void keep_directions(const RunContext& context);
+
   Index size() const { return points().rows(); }
   /// @throws Error (bad_data) if the distance exceeds the largest double.
   double operator()(Index i, Index j) const;
@@ -117,8 +124,12 @@ class PointMetric {
  private:
   double euclidean(Index i, Index j) const;
   double other(Index i, Index j) const;
+  double cosine(Index i, Index j) const;
+
+  class Directions;
 
   WholeRows points_;
+  std::shared_ptr<const Directions> directions_;
   PointDistance distance_;
   double p_;
   // Squares of coordinate differences may leave the range of double.
