@@ -27,6 +27,20 @@ concept MatrixOfDoubles = requires(const M& m) {
   { m.colStride() } -> std::convertible_to<Index>;
 };
 
+namespace detail {
+/// True if the type of a matrix fixes that there are two to four rows, but not how many columns: it
+/// has one point per column.
+template <class M>
+consteval bool has_points_in_columns() {
+  if constexpr (requires { M::RowsAtCompileTime, M::ColsAtCompileTime; }) {
+    constexpr int rows = M::RowsAtCompileTime, columns = M::ColsAtCompileTime;
+    return rows >= 2 && rows <= 4 && columns < 0;
+  } else {
+    return false;
+  }
+}
+}  // namespace detail
+
 /// Points in R^d, in memory that another object owns: a matrix with one point per row. Depending on
 /// the strides, rows are contiguous (C order) or columns are (F order), with or without gaps,
 /// forwards or backwards. Copies are cheap; the numbers must outlive all copies.
@@ -41,6 +55,7 @@ class PointsView {
   /// point; may be negative.
   /// @param column_stride distance, in numbers, from a coordinate to the next coordinate of the
   ///        same point.
+  /// @throws Error (usage) on a negative size.
   constexpr PointsView(const double* data, Index rows, Index columns, Index row_stride,
                        Index column_stride)
       : data_(data),
@@ -48,11 +63,16 @@ class PointsView {
         columns_(columns),
         // If there are no columns, `data` may be null, and no stride must be added to it.
         row_stride_(columns > 0 ? row_stride : 0),
-        column_stride_(column_stride) {}
+        column_stride_(column_stride) {
+    if (rows < 0 || columns < 0) refuse(rows, columns);
+  }
   template <MatrixOfDoubles M>
   constexpr PointsView(const M& matrix)
       : PointsView(matrix.data(), matrix.rows(), matrix.cols(), matrix.rowStride(),
-                   matrix.colStride()) {}
+                   matrix.colStride()) {
+    static_assert(!detail::has_points_in_columns<M>(),
+                  "libph expects one point per row: pass matrix.transpose()");
+  }
 
   constexpr Index rows() const { return rows_; }     ///< number of points
   constexpr Index cols() const { return columns_; }  ///< number of coordinates of each point
@@ -66,6 +86,9 @@ class PointsView {
   constexpr const double* row(Index i) const { return data_ + i * row_stride_; }
 
  private:
+  friend class Points;
+  [[noreturn]] static void refuse(Index rows, Index columns);
+
   const double* data_ = nullptr;
   Index rows_ = 0, columns_ = 0, row_stride_ = 0, column_stride_ = 1;
 };

@@ -103,7 +103,7 @@ struct RunContext {
   std::stop_token stop;                              ///< polled often; see `poll`
   std::function<void(const Progress&)> on_progress;  ///< called at most ten times per second
   mutable MemoryBudget memory;                       ///< unlimited unless `set_limit` is called
-  int threads = 0;                                   ///< threads to use; 0: one per core
+  int threads = 0;                                   ///< threads to use, >= 0; 0: one per core
   /// Images: number of layers along the first axis that are processed together. 0: all layers if
   /// the memory limit allows it, otherwise as many as it allows. The result does not depend on this
   /// number.

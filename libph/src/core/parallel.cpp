@@ -5,9 +5,12 @@
 #include <atomic>
 #include <exception>
 #include <mutex>
+#include <string>
 #include <system_error>
 #include <thread>
 #include <vector>
+
+#include "ph/error.hpp"
 
 namespace ph {
 namespace {
@@ -55,6 +58,9 @@ class Pieces {
 
 std::size_t thread_count(const RunContext& context) {
   if (context.threads > 0) return static_cast<std::size_t>(context.threads);
+  if (context.threads < 0)
+    throw Error(ErrorKind::usage,
+                "threads: found " + std::to_string(context.threads) + ", expected 0 or more");
   return std::max(1U, std::thread::hardware_concurrency());
 }
 

@@ -22,11 +22,14 @@ void Points::set_row(Index i, std::initializer_list<double> coordinates) {
   std::ranges::copy(coordinates, row(i).begin());
 }
 
+void PointsView::refuse(Index rows, Index columns) {
+  throw Error(
+      ErrorKind::usage,
+      fmt::format("points: found {} x {} coordinates, expected no negative number", rows, columns));
+}
+
 Points::Data Points::zeros(Index rows, Index columns) {
-  if (rows < 0 || columns < 0)
-    throw Error(ErrorKind::usage, fmt::format("points: found {} x {} coordinates, expected no "
-                                              "negative number",
-                                              rows, columns));
+  if (rows < 0 || columns < 0) PointsView::refuse(rows, columns);
   if (rows == 0 || columns == 0) return nullptr;
   const std::size_t most = std::numeric_limits<std::ptrdiff_t>::max() / sizeof(double);
   if (to_size(rows) > most / to_size(columns)) throw std::bad_alloc();

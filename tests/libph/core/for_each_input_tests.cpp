@@ -63,6 +63,13 @@ TEST(ForEachInput, SharesThreadsAndMemoryOut) {
   });
 }
 
+TEST(Threads, AreNoNegativeNumber) {
+  RunContext context;
+  context.threads = -3;
+  expect_error(ErrorKind::usage, "threads: found -3, expected 0 or more",
+               [&] { for_each_input(9, context, [](std::size_t, const RunContext&) {}); });
+}
+
 TEST(ForEachInput, CountsWhatIsKeptOfEach) {
   ThreadsContext context(1);
   context.memory.set_limit(1000);

@@ -35,6 +35,7 @@ TEST(PointsOwner, IsWhatItWasMadeOf) {
     Points{{0, 1}, {2}};
   });
   expect_error(ErrorKind::usage, "no negative number", [] { Points(-1, 2); });
+  expect_error(ErrorKind::usage, "-1 x 3", [] { PointsView(nullptr, -1, 3); });
   EXPECT_THROW(Points(Index{1} << 40, Index{1} << 40), std::bad_alloc);
 }
 
@@ -117,6 +118,15 @@ static_assert(Metric<PointMetric>);
 static_assert(!Metric<Eigen::MatrixXf> && !Metric<Eigen::MatrixXi> && !Metric<Eigen::MatrixXd>);
 static_assert(!std::constructible_from<Rips, const Eigen::MatrixXf&>);
 static_assert(std::constructible_from<Rips, const Eigen::MatrixXd&>);
+
+// A matrix with one point per column was taken for three points in many axes.
+static_assert(detail::has_points_in_columns<Eigen::Matrix3Xd>());
+static_assert(!detail::has_points_in_columns<Eigen::Transpose<const Eigen::Matrix3Xd>>());
+static_assert(!detail::has_points_in_columns<Eigen::MatrixX3d>());
+static_assert(!detail::has_points_in_columns<Eigen::MatrixXd>());
+static_assert(!detail::has_points_in_columns<Eigen::RowVectorXd>());
+static_assert(!detail::has_points_in_columns<Eigen::Matrix3d>());
+static_assert(!detail::has_points_in_columns<Eigen::Block<Eigen::MatrixXd>>());
 
 TEST(PointsViews, OfEigenTakeNoCopy) {
   Points points{{0, 1}, {2, 3}};
