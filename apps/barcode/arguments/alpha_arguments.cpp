@@ -38,7 +38,7 @@ void add_alpha_options(app::Options& options, Job& job) {
                  "--weights squared)",
                  job.question.alpha_unit);
   options.path({"--weights", kOfAlpha}, "FILE",
-               "the square of each ball's first radius, one number a point (default: all 0); of "
+               "the square of each ball's first radius, one number per point (default: all 0); of "
                "complex alpha",
                job.question.weights);
   options.value({"--period", kOfAlpha}, "L|L,L,…",

@@ -44,7 +44,7 @@ constexpr std::array<Name, 12> kMostUsed{
 
 constexpr std::array kExamples{
     app::Example{"ph-barcode examples/data/two_circles.csv",
-                 "The components and loops of a set of points, a bar a line"},
+                 "The components and loops of a set of points, one bar per line"},
     app::Example{"ph-barcode examples/data/two_circles.csv --min-persistence 0.3 -o bars.csv "
                  "--plot bars.svg",
                  "The long bars only, as a file and as a picture"},

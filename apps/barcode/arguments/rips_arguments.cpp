@@ -56,7 +56,7 @@ void add_rips_options(app::Options& options, Job& job) {
          false, [&job](double epsilon) { job.question.rips.approximation = epsilon; });
   options.path(
       {"--vertex-weights", kOfRips}, "FILE",
-      "when each point enters, one number a point, in units of the distance (default: all at "
+      "when each point enters, one number per point, in units of the distance (default: all at "
       "0)",
       job.question.vertex_weights);
   options.value({"--dtm", kOfAllPairs}, "K",

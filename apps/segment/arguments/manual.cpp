@@ -41,7 +41,7 @@ constexpr std::array kExamples{
     app::Example{"ph-segment examples/data/table.pcd --report table.html",
                  "A page with the cloud, its objects and the merge tree"},
     app::Example{"ph-segment examples/data/stack.pcd --parts --plot parts.svg --plot-kind cloud",
-                 "A picture of the visible parts of a stack, a colour each"},
+                 "A picture of the visible parts of a stack, one colour per part"},
     app::Example{"ph-segment examples/data/stack.pcd --explain 1,2",
                  "Where, and at which value, the first two objects of a stack join"},
 };
@@ -49,7 +49,8 @@ constexpr std::array kExamples{
 constexpr std::array kRead{
     app::FormatText{"pcd", "a point cloud in PCD, organised or not", {}},
     app::FormatText{"ply", "a point cloud, or the vertices of a mesh, in PLY", {}},
-    app::FormatText{"xyz", "text: x y z a line, then colours and others", "0.5 1.25 2 255 0 0"},
+    app::FormatText{"xyz", "text: x y z in each line, then colours and others",
+                    "0.5 1.25 2 255 0 0"},
     app::FormatText{"csv", "text: the same with commas, and a header of names", "x,y,z"},
     app::FormatText{"pts", "text: the same behind a line with the number of points", "1024"},
     app::FormatText{"npy",

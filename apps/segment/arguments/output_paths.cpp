@@ -32,16 +32,17 @@ constexpr std::array kOutputs{
                  .option = "--labels",
                  .path = &OutputPaths::labels,
                  .names = "--labels",
-                 .help = "one label a point: 0 no segment, 1…k by decreasing number of points "
-                         "(csv: one a line; png: 16 bits, organised clouds)",
+                 .help = "one label per point: 0 no segment, 1…k by decreasing number of points "
+                         "(csv: one per line; png: 16 bits, organised clouds)",
                  .extensions = kLabels,
                  .shows_labels = true},
     OutputOption{.kind = OutputKind::surfaces,
                  .option = "--surfaces",
                  .path = &OutputPaths::surfaces,
                  .names = "--surfaces",
-                 .help = "what bounds the scene, one number a point: 0 none, else the number that "
-                         "a support or a wall has in --json",
+                 .help =
+                     "what bounds the scene, one number per point: 0 none, else the number that "
+                     "a support or a wall has in --json",
                  .extensions = kLabels},
     OutputOption{.kind = OutputKind::json,
                  .option = "--json",
@@ -74,8 +75,9 @@ constexpr std::array kOutputs{
                  .option = "--coloured",
                  .path = &OutputPaths::coloured,
                  .names = "--coloured,--colored",
-                 .help = "the points with a colour a segment, safe for the colour-blind, and the "
-                         "rest in grey",
+                 .help =
+                     "the points with one colour per segment, safe for the colour-blind, and the "
+                     "rest in grey",
                  .scope = kOfScenes,
                  .extensions = kClouds,
                  .shows_labels = true,
