@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import logging
 import os
+import warnings
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -66,7 +67,9 @@ def read(path: str | os.PathLike[str], format: str | None = None, *,
          stack: bool = False, **run: Unpack[RunOptions]) -> Any:
     """Reads a file of points, distances, an image, simplices, a boundary matrix or a mesh.
 
-    What libph assumed about the file is reported to the logger "libph", level INFO.
+    If a file has several plausible meanings, such as columns that may be no coordinates, a
+    UserWarning says which one was chosen, and how to choose another. Other notes about the file go
+    to the logger "libph", level INFO.
 
     Parameters
     ----------
@@ -181,6 +184,9 @@ def found_by(path: Any, format: Any, values: Any, nan: Any, columns: Any, array:
     _LOG.info("%s: %s", os.fspath(path), found["description"])
     for note in found["notes"]:
         _LOG.info("%s: %s", os.fspath(path), note)
+    for guess in found["guesses"]:
+        warnings.warn(f"{os.fsdecode(file)}: {guess}", UserWarning,
+                      stacklevel=_options.user_level())
     return found
 
 

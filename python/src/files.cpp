@@ -148,9 +148,11 @@ py::dict read(const std::string& path, const std::string& format_name,
   });
   py::dict answer = std::visit(Answer(used), result.data);
   answer["description"] = result.description;
-  std::vector<std::string> notes;
-  for (const Message& note : result.notes) notes.push_back(note.in_words(kWords));
+  std::vector<std::string> notes, guesses;
+  for (const Message& note : result.notes)
+    (note.is_guess() ? guesses : notes).push_back(note.in_words(kWords));
   answer["notes"] = notes;
+  answer["guesses"] = guesses;
   answer["dropped"] = dropped;
   answer["periodic"] = result.periodic;
   answer["affine"] = result.affine;

@@ -169,7 +169,15 @@ class Message {
       : marked_(std::move(marked)) {}                    // NOLINT(google-explicit-constructor)
   Message(std::string_view marked) : marked_(marked) {}  // NOLINT(google-explicit-constructor)
   Message(const char* marked) : marked_(marked) {}       // NOLINT(google-explicit-constructor)
+  /// A note that says which of several plausible meanings an input was given.
+  static Message guess(std::string marked) {
+    Message message(std::move(marked));
+    message.is_guess_ = true;
+    return message;
+  }
 
+  /// True if the result would be another one if the user meant something else.
+  bool is_guess() const { return is_guess_; }
   bool empty() const { return marked_.empty(); }
   /// The text as given, with its marks, for use in another message.
   const std::string& marked() const { return marked_; }
@@ -196,6 +204,7 @@ class Message {
 
  private:
   std::string marked_;
+  bool is_guess_ = false;
 };
 
 /// The one exception type of libph. `what()` is one line, which names settings as Message::str

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "libph/src/io/bytes/readers.hpp"
+#include "libph/src/io/bytes/utf8.hpp"
 #include "libph/src/io/clouds/cloud_rows.hpp"
 #include "ph/detail/io/table.hpp"
 #include "ph/io/read.hpp"
@@ -81,9 +82,10 @@ namespace detail {
 
 bool is_text(std::string_view bytes) {
   bytes = bytes.substr(0, 4096);
-  return std::ranges::all_of(bytes, [](char c) {
-    return c == '\n' || c == '\r' || c == '\t' || static_cast<unsigned char>(c) >= 0x20;
+  const bool has_controls = std::ranges::any_of(bytes, [](char c) {
+    return c != '\n' && c != '\r' && c != '\t' && static_cast<unsigned char>(c) < 0x20;
   });
+  return !has_controls && first_of_many_foreign_bytes(bytes) == std::string_view::npos;
 }
 
 std::optional<Format> format_by_content(const Input& input) {

@@ -95,23 +95,24 @@ ArrayGuess guess_array(const Input& input, const ReadOptions& options) {
     const bool may_be_sets = columns <= kMostCoordinates && rows >= kSlender * columns;
     if (npy.kind == 'f' && columns == 3 && npy.count > 0)
       return {ArrayMeaning::image,
-              fmt::format(
+              Message::guess(fmt::format(
                   "an array of three axes: read as a volume; {} reads {} x {} points with "
                   "three coordinates each{}",
                   mark(Setting::format, "points"), npy.shape[0], rows,
-                  may_be_sets ? "; if it holds several sets of points, take one set, a[i]" : "")};
+                  may_be_sets ? "; if it holds several sets of points, take one set, a[i]" : ""))};
     if (npy.kind == 'f' && columns > 0 && may_be_sets)
       return {ArrayMeaning::image,
-              fmt::format("an array of three axes: read as a volume; if it holds {} sets of "
-                          "{} x {} points, take one set, a[i]",
-                          npy.shape[0], rows, columns)};
+              Message::guess(
+                  fmt::format("an array of three axes: read as a volume; if it holds {} sets of "
+                              "{} x {} points, take one set, a[i]",
+                              npy.shape[0], rows, columns))};
     const bool are_bytes = npy.kind == 'u' && npy.array.type.size == 1;
     const auto picture_of = [](Index channels, std::string_view first) {
-      return ArrayGuess{
-          ArrayMeaning::image,
-          fmt::format("an array of three axes: read as a volume; if it is a picture with {} "
-                      "channels, take one channel, {}",
-                      channels, first)};
+      return ArrayGuess{ArrayMeaning::image,
+                        Message::guess(fmt::format(
+                            "an array of three axes: read as a volume; if it is a picture with {} "
+                            "channels, take one channel, {}",
+                            channels, first))};
     };
     if (are_bytes && (columns == 3 || columns == 4)) return picture_of(columns, "a[..., 0]");
     if (const Index sheets = npy.shape[0];
@@ -147,8 +148,9 @@ ArrayGuess guess_array(const Input& input, const ReadOptions& options) {
       const bool either = kind == SquareKind::distances || kind == SquareKind::correlations;
       if (!either) return otherwise;
       return {otherwise.meaning,
-              fmt::format("{}, symmetric: read as {}; {} reads distances", shape,
-                          is_rips ? "points" : "an image", mark(Setting::format, "distance"))};
+              Message::guess(fmt::format("{}, symmetric: read as {}; {} reads distances", shape,
+                                         is_rips ? "points" : "an image",
+                                         mark(Setting::format, "distance")))};
     }
     const bool has_zeros = kind == SquareKind::distances || kind == SquareKind::zeros;
     // A picture may be black and a label map may be empty, but points and distances are never all
@@ -163,8 +165,9 @@ ArrayGuess guess_array(const Input& input, const ReadOptions& options) {
     }
     if (kind == SquareKind::zeros && (npy.kind == 'f' || !is_mostly_zero(block, side))) {
       return {otherwise.meaning,
-              fmt::format("{} with a zero diagonal: read as an image; {} reads distances", shape,
-                          mark(Setting::format, "distance"))};
+              Message::guess(
+                  fmt::format("{} with a zero diagonal: read as an image; {} reads distances",
+                              shape, mark(Setting::format, "distance")))};
     }
     if (kind == SquareKind::correlations || kind == SquareKind::nearly_correlations) {
       input.fail({"correlations, points or an image",
@@ -179,9 +182,9 @@ ArrayGuess guess_array(const Input& input, const ReadOptions& options) {
     if (kind == SquareKind::distances || kind == SquareKind::symmetric ||
         kind == SquareKind::nearly_symmetric) {
       return {otherwise.meaning,
-              fmt::format("{}, {}: read as {}; {} reads distances", shape, symmetric,
-                          is_rips ? "points, one per row" : "an image",
-                          way_to_distances(kind == SquareKind::distances))};
+              Message::guess(fmt::format("{}, {}: read as {}; {} reads distances", shape, symmetric,
+                                         is_rips ? "points, one per row" : "an image",
+                                         way_to_distances(kind == SquareKind::distances)))};
     }
   }
   if (is_rips) return otherwise;
@@ -196,8 +199,9 @@ ArrayGuess guess_array(const Input& input, const ReadOptions& options) {
   }
   if (is_of_pixels)
     return {ArrayMeaning::image,
-            fmt::format("{} of small integers: read as an image; {} reads one point per row", shape,
-                        mark(Setting::complex, "rips"))};
+            Message::guess(
+                fmt::format("{} of small integers: read as an image; {} reads one point per row",
+                            shape, mark(Setting::complex, "rips")))};
   return {ArrayMeaning::points, fmt::format("{}: read as one point per row; {} reads an image",
                                             shape, mark(Setting::complex, "cubical"))};
 }

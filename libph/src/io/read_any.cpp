@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "libph/src/io/bytes/readers.hpp"
+#include "libph/src/io/bytes/utf8.hpp"
 #include "ph/detail/io/table.hpp"
 #include "ph/io/read.hpp"
 
@@ -71,8 +72,9 @@ Format format_of_text(const Input& input, const ReadOptions& options) {
   if (options.array == ArrayMeaning::points) return Format::points;
   using detail::SquareKind;
   if (guess.columns == 1 && guess.table.rows > 1 && options.array == ArrayMeaning::automatic)
-    detail::note(options, fmt::format("one number per line: points on a line; {} reads a signal",
-                                      mark(Setting::complex, "cubical")));
+    detail::note(options, Message::guess(fmt::format(
+                              "one number per line: points on a line; {} reads a signal",
+                              mark(Setting::complex, "cubical"))));
   const std::string size = fmt::format("{} x {} numbers", guess.table.rows, guess.columns);
   const bool is_nearly = guess.table.square == SquareKind::nearly_correlations ||
                          guess.table.square == SquareKind::nearly_symmetric;
@@ -101,7 +103,8 @@ Format format_of_text(const Input& input, const ReadOptions& options) {
                 fmt::format("{}, rows and columns with the same names, no zero diagonal", size),
                 "an option that says which", choices});
   } else if (guess.table.square != SquareKind::nothing && guess.table.square != SquareKind::zeros) {
-    detail::note(options, fmt::format("{}, {}: read as points; {}", size, symmetric, choices));
+    detail::note(options, Message::guess(
+                              fmt::format("{}, {}: read as points; {}", size, symmetric, choices)));
   }
   return guess.format;
 }
@@ -169,7 +172,7 @@ void join_vertices(Mesh& mesh, const Input& input, const ReadOptions& options, R
   if (!options.weld) {
     if (mesh.values.empty()) return;  // the vertices may be points, and the faces may not be used
     if (const std::string text = detail::note_on_seams(mesh, input); !text.empty())
-      detail::note(options, text);
+      detail::note(options, Message::guess(text));
     return;
   }
   const Index before = mesh.vertices.rows();
@@ -200,11 +203,16 @@ void detail::refuse_bytes(const Input& input, std::string_view hint) {
     return static_cast<unsigned char>(c) < 0x20 &&
            std::string_view("\t\n\v\f\r\x1A\x1B").find(c) == std::string_view::npos;
   });
-  if (odd == probe.end()) return;
-  const auto place = static_cast<std::size_t>(odd - probe.begin());
-  input.fail_at_byte(place,
-                     {"not plain text", "a control character, " + printable(probe.substr(place, 1)),
-                      "UTF-8", std::string(hint)});
+  if (odd != probe.end()) {
+    const auto place = static_cast<std::size_t>(odd - probe.begin());
+    input.fail_at_byte(
+        place, {"not plain text", "a control character, " + printable(probe.substr(place, 1)),
+                "UTF-8", std::string(hint)});
+  }
+  const std::size_t foreign = first_of_many_foreign_bytes(probe);
+  if (foreign != std::string_view::npos)
+    input.fail_at_byte(foreign,
+                       {"not plain text", "bytes that are no UTF-8", "UTF-8", std::string(hint)});
 }
 
 ReadResult read_any(const Input& input, Format format, const ReadOptions& options,
@@ -238,7 +246,7 @@ ReadResult read_any(const Input& input, Format format, const ReadOptions& option
     format = known ? *known : format_of_text(input, inner);
     if (format == Format::binary)
       if (const std::string way = detail::way_to_raw_points(input); !way.empty())
-        detail::note(inner, "a file named .bin: read as distances; " + way);
+        detail::note(inner, Message::guess("a file named .bin: read as distances; " + way));
   }
   check_part(input, format, options);
   const FormatInfo& info = format_info(format);

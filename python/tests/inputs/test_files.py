@@ -75,7 +75,8 @@ def test_points_without_a_header(tmp_path):
     assert np.array_equal(ph.read(tmp_path / "v.bin", raw_points=4, columns=["1-3"]), scan[:, :3])
     scan.astype(">f8").tofile(tmp_path / "w.bin")
     assert np.array_equal(ph.read(tmp_path / "w.bin", raw_points=4, raw_dtype=">f8"), scan)
-    assert ph.read(tmp_path / "v.bin").shape == (16, 16), "also a triangle of distances"
+    with pytest.warns(UserWarning, match="read as distances; raw_points=4"):
+        assert ph.read(tmp_path / "v.bin").shape == (16, 16), "also a triangle of distances"
     for wrong, words in (({"raw_points": 0}, "raw_points"), ({"raw_points": 4, "raw_shape": (120,)}, "raw_shape"),
                          ({"raw_points": 4, "format": "points"}, "raw_points: found format='points', expected"),
                          ({"raw_dtype": "f4", "raw_skip": 2},
@@ -89,11 +90,13 @@ def test_points_without_a_header(tmp_path):
         ph.read(tmp_path / "x.raw")
 
 
-def test_the_note_on_columns_is_valid_python(tmp_path, caplog):
+def test_the_note_on_columns_is_valid_python(tmp_path):
     path = write(tmp_path, "c.csv", "x,y,z,ring\n1,2,3,4\n5,6,7,8\n")
-    with caplog.at_level("INFO", logger="libph"):
+    with pytest.warns(UserWarning) as told:
         assert ph.read(path).shape == (2, 4)
-    assert "columns=['x', 'y', 'z'] leaves it out" in caplog.text
+    assert [str(warning.message) for warning in told] == [
+        f"{path}: ring is read as a coordinate; columns=['x', 'y', 'z'] leaves it out"]
+    assert told[0].filename == __file__
     assert ph.read(path, columns=["x", "y", "z"]).tolist() == [[1, 2, 3], [5, 6, 7]]
 
 
@@ -152,12 +155,12 @@ def test_meshes(tmp_path):
     assert list(ph.lower_star(mesh.values, np.unique(mesh.triangles, axis=0))) == [(0, 0, np.inf)]
 
 
-def test_meshes_with_seams(tmp_path, caplog):
+def test_meshes_with_seams(tmp_path):
     text = ("OFF\n6 2 0\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n0 1 0\n1 0 0\n3 0 1 2\n3 3 4 5\n")
     path, values = write(tmp_path, "m.off", text), write(tmp_path, "v.txt", "0\n1\n2\n3\n2\n1\n")
-    with caplog.at_level("INFO", logger="libph"):
+    with pytest.warns(UserWarning, match="not connected; weld joins them"):
         split = ph.read(path, values=values)
-    assert len(split.vertices) == 6 and "not connected; weld joins them" in caplog.text
+    assert len(split.vertices) == 6
     assert len(ph.lower_star(split.values, split.triangles).dgm(0)) == 2
     mesh = ph.read(path, values=values, weld=True)
     assert mesh.vertices.tolist() == [[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0]]

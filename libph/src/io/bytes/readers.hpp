@@ -73,9 +73,9 @@ bool is_meta_image(const Input& input);
 /// True for an XML text whose first element is a VTKFile of type ImageData.
 bool is_vti(const Input& input);
 
-/// True if the first bytes contain no control characters except tabs and line ends. Binary formats
-/// begin with an eight-byte count. A count below 2^40 contains NUL bytes, which do not occur in
-/// text.
+/// True if the first bytes contain no control characters except tabs and line ends, and are mostly
+/// UTF-8. Binary formats begin with an eight-byte count. A count below 2^40 contains NUL bytes,
+/// which do not occur in text.
 bool is_text(std::string_view bytes);
 
 /// Refuses bytes that are not text and have no magic number. @param hint advice for bytes of an

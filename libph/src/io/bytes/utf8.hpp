@@ -22,6 +22,19 @@ inline std::size_t utf8_length(std::string_view text) {
   return length;
 }
 
+/// The first byte of a text that is no UTF-8, if such bytes are more than a quarter of the text;
+/// otherwise npos. A header in Latin-1 has a few letters with accents, but a volume of bytes
+/// without a header has mostly such bytes.
+inline std::size_t first_of_many_foreign_bytes(std::string_view text) {
+  std::size_t foreign = 0, first = std::string_view::npos;
+  for (std::size_t place = 0; place < text.size();) {
+    const std::size_t length = utf8_length(text.substr(place));
+    if (length == 0 && foreign++ == 0) first = place;
+    place += length == 0 ? 1 : length;
+  }
+  return 4 * foreign > text.size() ? first : std::string_view::npos;
+}
+
 inline bool is_utf8(std::string_view text) {
   while (!text.empty()) {
     const std::size_t length = utf8_length(text);

@@ -82,11 +82,12 @@ void tell_of_other_columns(const TableLayout& layout, const ReadOptions& options
   std::vector<std::string> words(others.begin(),
                                  others.begin() + static_cast<std::ptrdiff_t>(named));
   if (named < others.size()) words.push_back(fmt::format("{} more", others.size() - named));
-  note(options, fmt::format("{} {} read as {}; {} leaves {} out", listed(words),
-                            others.size() == 1 ? "is" : "are",
-                            others.size() == 1 ? "a coordinate" : "coordinates",
-                            mark(Setting::columns, fmt::format("{}", fmt::join(coordinates, ","))),
-                            others.size() == 1 ? "it" : "them"));
+  note(options,
+       Message::guess(fmt::format(
+           "{} {} read as {}; {} leaves {} out", listed(words), others.size() == 1 ? "is" : "are",
+           others.size() == 1 ? "a coordinate" : "coordinates",
+           mark(Setting::columns, fmt::format("{}", fmt::join(coordinates, ","))),
+           others.size() == 1 ? "it" : "them")));
 }
 
 // Adds a note if a table has a latitude and a longitude, which are read as coordinates of the
@@ -106,10 +107,11 @@ void tell_of_degrees(const TableLayout& layout, const ReadOptions& options) {
   const std::string latitude = column_named({"lat", "latitude"});
   const std::string longitude = column_named({"lon", "lng", "long", "longitude"});
   if (latitude.empty() || longitude.empty()) return;
-  note(options, fmt::format("{0} and {1} are read as coordinates of the plane, but differences of "
-                            "degrees are not distances; (cos {0} cos {1}, cos {0} sin {1}, sin "
-                            "{0}) is the point on the unit sphere",
-                            latitude, longitude));
+  note(options, Message::guess(fmt::format(
+                    "{0} and {1} are read as coordinates of the plane, but differences of "
+                    "degrees are not distances; (cos {0} cos {1}, cos {0} sin {1}, sin "
+                    "{0}) is the point on the unit sphere",
+                    latitude, longitude)));
 }
 
 }  // namespace
@@ -123,16 +125,17 @@ void tell_of_counts(const Input& input, const TableLayout& layout, PointsView ro
   const bool may_be_index =
       !layout.names_rows && !(has_name && names_coordinate(layout.header.front()));
   if (may_be_index && rows.rows() >= kFewest && rows.cols() > 1 && counts_rows(rows, 0)) {
-    note(options,
-         fmt::format("the first column{} holds row numbers and is read as {}; {} leaves it out",
-                     has_name ? fmt::format(", {},", printable(layout.header.front(), 40)) : "",
-                     is_image ? "values" : "a coordinate",
-                     mark(Setting::columns, fmt::format("2-{}", rows.cols()))));
+    note(options, Message::guess(fmt::format(
+                      "the first column{} holds row numbers and is read as {}; {} leaves it out",
+                      has_name ? fmt::format(", {},", printable(layout.header.front(), 40)) : "",
+                      is_image ? "values" : "a coordinate",
+                      mark(Setting::columns, fmt::format("2-{}", rows.cols())))));
   }
   if (layout.header.empty() && may_be_header(rows) && begins_with_digits(input))
-    note(options, fmt::format("the first row {} and is read as {}; remove it if it is a header",
-                              rows.cols() == 1 ? "is a whole number" : "holds column numbers",
-                              is_image ? "values" : "a point"));
+    note(options, Message::guess(
+                      fmt::format("the first row {} and is read as {}; remove it if it is a header",
+                                  rows.cols() == 1 ? "is a whole number" : "holds column numbers",
+                                  is_image ? "values" : "a point")));
 }
 
 void tell_of_whole_columns(PointsView points, const ReadOptions& options) {
@@ -149,11 +152,11 @@ void tell_of_whole_columns(PointsView points, const ReadOptions& options) {
   const std::string which =
       columns == kSpace + 1 ? "column 4 has" : fmt::format("columns 4 to {} have", columns);
   note(options,
-       fmt::format(
+       Message::guess(fmt::format(
            "{} only whole numbers, unlike the first three, and {} read as {}; {} leaves {} out",
            which, columns == kSpace + 1 ? "is" : "are",
            columns == kSpace + 1 ? "a coordinate" : "coordinates", mark(Setting::columns, "1-3"),
-           columns == kSpace + 1 ? "it" : "them"));
+           columns == kSpace + 1 ? "it" : "them")));
 }
 
 void tell_of_columns(const TableLayout& layout, PointsView rows, const ReadOptions& options) {

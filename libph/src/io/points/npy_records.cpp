@@ -81,8 +81,9 @@ std::vector<std::size_t> chosen(const std::vector<Column>& columns, const NpyHea
                 "fields x, y and z, or only floats",
                 mark(Setting::columns, "NAMES") + " chooses the fields that are coordinates"});
   }
-  note(options, fmt::format("a structured array: its fields {} are read as coordinates",
-                            names_of_fields(header.fields)));
+  note(options,
+       Message::guess(fmt::format("a structured array: its fields {} are read as coordinates",
+                                  names_of_fields(header.fields))));
   for (std::size_t k = 0; k < columns.size(); ++k) places.push_back(k);
   return places;
 }

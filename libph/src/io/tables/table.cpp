@@ -282,9 +282,9 @@ bool leads_with_names(const Input& input, TableLayout& layout, std::string_view 
     return true;
   }
   if (is_index)
-    layout.notes.push_back(fmt::format("the first column{} is read as numbers; {} leaves it out",
-                                       name,
-                                       mark(Setting::columns, fmt::format("2-{}", layout.width))));
+    layout.notes.push_back(
+        Message::guess(fmt::format("the first column{} is read as numbers; {} leaves it out", name,
+                                   mark(Setting::columns, fmt::format("2-{}", layout.width)))));
   return false;
 }
 
@@ -366,8 +366,8 @@ TableLayout table_layout(const Input& input, const ReadOptions& options) {
     if (names.size() != layout.width) names.clear();
     layout.columns = chosen_columns(options.columns, names, layout.width, input);
     if (!has_header && has_next && may_be_names(lines, next, layout))
-      layout.notes.push_back(
-          fmt::format("line {} is read as numbers; remove it if it is a header", lines.number()));
+      layout.notes.push_back(Message::guess(
+          fmt::format("line {} is read as numbers; remove it if it is a header", lines.number())));
     return layout;
   }
   if (has_header) layout.names_rows = leads_with_names(input, layout, first_cell(row, layout));

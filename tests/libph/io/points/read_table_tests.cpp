@@ -2,6 +2,7 @@
 // Tables with names, with indexes and with chosen columns, and tables that give no hint about their
 // contents.
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "ph/detail/io/png.hpp"
@@ -133,13 +134,22 @@ TEST(ReadTable, ANumberOfRowsBeforeTheRowsIsChecked) {
 }
 
 TEST(ReadTable, BytesWithoutAHeaderNameTheRawOptions) {
-  for (const std::string& bytes : {std::string("\1\2\3\4\5\6"), std::string("\x40\0\0\x80", 4)}) {
+  std::string smooth;  // a volume whose values are between 120 and 180
+  for (int i = 0; i < 4096; ++i) smooth += static_cast<char>(150 + 30 * std::sin(0.02 * i));
+  for (const std::string& bytes :
+       {std::string("\1\2\3\4\5\6"), std::string("\x40\0\0\x80", 4), smooth}) {
     const std::string message =
         bad_data([&] { read_any(Input::view(bytes, "x.raw"), Format::automatic); });
     EXPECT_TRUE(contains(message, "not plain text")) << message;
     EXPECT_TRUE(contains(message, "raw_shape") && contains(message, "raw_points")) << message;
   }
   EXPECT_EQ(std::get<Points>(any("# page\f\n1 2\n3 4\n").data).rows(), 2);
+  EXPECT_EQ(std::get<Points>(any("gr\xf6\xdf"
+                                 "e,h\xf6he\n1,2\n3,4\n")
+                                 .data)
+                .rows(),
+            2)
+      << "Latin-1";
 }
 
 TEST(ReadTable, ChoosesColumns) {
