@@ -109,11 +109,14 @@ class Request(NamedTuple):
                             slab_layers=self.slab_layers, copied=self.copied)
         except (Cancelled, MemoryLimitError):
             return error
+        message = str(error).removesuffix(_run.LARGER_LIMIT)
         if not ways:
-            return reworded(error, f"{error}; ph.estimate says how much memory a computation needs")
+            return reworded(error, f"{message}; ph.estimate says how much memory a computation "
+                            "needs")
         fit = "may fit" if self.meta["complex"] == "cubical" else "would fit"
-        return reworded(error, f"{error}; what {fit}: {'; '.join(text for _, text in ways)}; or a "
-                        "larger memory_limit", *ways[0][0])
+        changes = "; ".join(text for _, text in ways)
+        return reworded(error, f"{message}; what {fit}: {changes}; or a larger memory_limit",
+                        *ways[0][0])
 
 
 def _task(max_dim: Any, min_dim: Any, field: Any, engine: Any, collapse: Any, min_persistence: Any,

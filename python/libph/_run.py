@@ -12,7 +12,7 @@ from contextvars import ContextVar
 from typing import Any, Protocol, TypedDict, TypeVar, Union
 
 from . import _core, _imports, _options
-from ._errors import Cancelled, Timeout
+from ._errors import Cancelled, MemoryLimitError, Timeout, reworded
 
 Progress = Union[bool, Callable[[str, int, int], object]]
 _Result = TypeVar("_Result")
@@ -103,6 +103,10 @@ def copies() -> list[int]:
     return [] if counted is None else counted
 
 
+# What helps if a memory limit is too small, and nothing else is known to help.
+LARGER_LIMIT = "; a larger memory_limit may help"
+
+
 def run(function: Callable[..., _Result], *arguments: Any, options: dict[str, Any],
         slab_layers: int = 0, copied: int = 0) -> _Result:
     """Calls a function of _core whose last argument is RunOptions.
@@ -111,14 +115,20 @@ def run(function: Callable[..., _Result], *arguments: Any, options: dict[str, An
     which count towards the memory limit.
     """
     defaults = _DEFAULTS.get()
-    if not options and not defaults and not slab_layers:
-        return function(*arguments, _PLAIN)
-    given = _check({**defaults, **{k: v for k, v in options.items() if v is not None}})
-    progress = given.get("progress")
-    with _bar() if progress is True else contextlib.nullcontext(progress) as report:
-        return function(*arguments, _core.RunOptions(
-            given.get("threads", 0), given.get("memory_limit"), given.get("timeout"), report,
-            given.get("stop"), slab_layers, copied))
+    try:
+        if not options and not defaults and not slab_layers:
+            return function(*arguments, _PLAIN)
+        given = _check({**defaults, **{k: v for k, v in options.items() if v is not None}})
+        progress = given.get("progress")
+        with _bar() if progress is True else contextlib.nullcontext(progress) as report:
+            return function(*arguments, _core.RunOptions(
+                given.get("threads", 0), given.get("memory_limit"), given.get("timeout"), report,
+                given.get("stop"), slab_layers, copied))
+    except MemoryLimitError as error:
+        message = str(error)
+        if not message.startswith("memory limit of") or ";" in message:
+            raise
+        raise reworded(error, message + LARGER_LIMIT) from None
 
 
 @contextlib.contextmanager

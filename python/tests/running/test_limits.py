@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Memory limits, and default options that apply within a `with` block."""
+import re
 import textwrap
 import threading
 
@@ -19,12 +20,16 @@ from workloads import VOLUME, normal, run_python, symmetric
     lambda **o: ph.cubical(VOLUME.T, **o),
     lambda **o: ph.collapse(symmetric(1500), **o),
     lambda **o: ph.merge_tree(VOLUME, **o),
+    lambda **o: ph.core_distances(normal(20000, 3), 4, **o),
+    lambda **o: ph.cluster_tree(normal(20000, 3), 4, **o),
+    lambda **o: ph.image_part(VOLUME, 0, 2, max_dim=0, **o),
     lambda **o: ph.point_image(normal(100, 3), 0.01, **o),
 ])
 def test_memory_limit(compute):
     with pytest.raises(ph.MemoryLimitError, match="memory limit") as caught:
         compute(memory_limit="1MiB")
     assert isinstance(caught.value, MemoryError) and isinstance(caught.value, ph.Error)
+    assert re.search("; .*(memory_limit|ph.estimate)", str(caught.value)), "a way out"
     assert len(ph.rips([[0], [1]])) == 2  # the process can still compute
 
 
