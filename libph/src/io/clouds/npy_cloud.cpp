@@ -34,7 +34,12 @@ Cloud read_npy_cloud(const Input& input, const ReadOptions& options) {
   const Index count = organised ? shape[0] * shape[1] : shape[0];
   input.require_memory(static_cast<std::size_t>(count * shape.back()) * sizeof(double));
   detail::TextTable table{Points(count, shape.back()), {}};
-  for (std::size_t i = 0; i < array.values.size(); ++i) table.rows.data()[i] = array.values[i];
+  constexpr std::size_t block = std::size_t{1} << 16;
+  for (std::size_t i = 0; i < array.values.size(); ++i) {
+    table.rows.data()[i] = array.values[i];
+    // The pages of the file that were read leave the memory.
+    if (i % block == 0) input.poll(i * bytes_of(array.values.type()));
+  }
   Cloud cloud = detail::cloud_of_rows(table, input, options, detail::RowSource::array);
   if (organised && count > 0) {
     cloud.width = shape[1];
