@@ -42,12 +42,14 @@ Cloud read_depth_image(const Input& input, const DepthInput& image, app::Session
                         note_of(session));
 }
 
-Cloud read_points(const Input& input, bool allow_empty, app::Session& session) {
+Cloud read_points(const Input& input, const Arguments& arguments, app::Session& session) {
   ReadOptions options;
   options.context = &session.context();
-  options.allow_empty = allow_empty;
+  options.allow_empty = arguments.allow_empty;
   options.note = note_of(session);
-  return ph::read_cloud(input, options);
+  Cloud cloud = ph::read_cloud(input, options);
+  if (arguments.image.scale) cloud.to_metres(*arguments.image.scale);
+  return cloud;
 }
 
 /// True if the answer is a text on standard output.
@@ -132,7 +134,7 @@ Result result_of(const Arguments& arguments, const std::optional<Plane>& plane_g
   if (arguments.is_depth_image())
     result.cloud = read_depth_image(*input, image, session);
   else if (is_scene)
-    result.cloud = read_points(*input, arguments.allow_empty, session);
+    result.cloud = read_points(*input, arguments, session);
   if (!arguments.files.report.empty()) result.sha256 = report::sha256_hex(*input, context);
   somebody_types.reset();
   Segmentation& s = result.segmentation;

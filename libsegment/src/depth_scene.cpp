@@ -4,6 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
 
 #include "ph/error.hpp"
 
@@ -35,6 +38,18 @@ Camera scaled(const Camera& camera, std::string_view calibration, Index width, I
   return result;
 }
 
+/// True if all depths are numbers that fit into 8 bits, and some are above 0. In a picture of the
+/// depth, such numbers stand for grey. In millimetres, no camera sees so near only.
+bool fits_into_bytes(const Voxels& depth) {
+  constexpr double most = std::numeric_limits<std::uint8_t>::max();
+  bool any = false;
+  for (std::size_t i = 0; i < depth.size(); ++i) {
+    if (depth[i] > most && std::isfinite(depth[i])) return false;
+    any |= depth[i] > 0;
+  }
+  return any;
+}
+
 }  // namespace
 
 std::optional<Camera> camera_named(std::string_view name, const Note& note) {
@@ -61,15 +76,21 @@ Camera calibrated_camera(const std::string& path, const Note& note, const RunCon
 
 Cloud cloud_of_depth(const DepthImage& image, const std::optional<Raster>& colour,
                      const Camera& camera, std::string_view calibration,
-                     std::optional<double> scale, const Note& note) {
+                     std::optional<double> given, const Note& note) {
   const Index rows = image.depth.extents[0], columns = image.depth.extents[1];
   const Camera fitting = scaled(camera, calibration, columns, rows, note);
+  std::optional<double> scale = given;
   // Images of floats are in metres, regardless of the camera's unit.
   if (!scale && camera.depth_scale > 0 && image.scale != 1) {
     scale = camera.depth_scale;
     note(fmt::format("{}: its depth_scale is used: {:.6g} units per metre",
                      camera_mark(calibration), *scale));
   }
+  if (!given && image.scale != 1 && fits_into_bytes(image.depth.values))
+    note(Message::guess(fmt::format(
+        "no depth is above 255, as in a picture of the depth with 8 bits; {} states how "
+        "many units a metre has",
+        mark(Setting::depth_scale))));
   DepthCounts counts;
   Cloud cloud =
       cloud_from_depth(image.depth, colour, fitting, scale.value_or(image.scale), &counts);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numbers>
 #include <optional>
@@ -14,45 +15,70 @@
 namespace ph::segment {
 namespace {
 
-/// The distances of the nearest and the farthest point, in metres. Empty if there are no points.
-std::optional<std::array<double, 2>> distances(const Cloud& cloud, const Vec3& viewpoint) {
-  double nearest = kInfinity, farthest = 0;
+/// The points that were segmented. A function copies the coordinates, because most notes need none.
+struct InputCloud {
+  Index points = 0, width = 0, height = 0;
+  std::function<std::vector<float>()> xyz;
+};
+
+/// The distances of points from a viewpoint, in metres.
+struct Distances {
+  double nearest = 0, median = 0, farthest = 0;
+};
+
+/// Empty if all points are holes.
+std::optional<Distances> distances(const InputCloud& cloud, const Vec3& viewpoint) {
+  std::vector<double> all;
   const std::vector<float> xyz = cloud.xyz();
   for (std::size_t i = 0; i + 2 < xyz.size(); i += 3) {
     const double x = xyz[i] - viewpoint[0], y = xyz[i + 1] - viewpoint[1];
     const double distance = std::hypot(x, y, xyz[i + 2] - viewpoint[2]);
-    if (!std::isfinite(distance)) continue;
-    nearest = std::min(nearest, distance);
-    farthest = std::max(farthest, distance);
+    if (std::isfinite(distance)) all.push_back(distance);
   }
-  if (nearest == kInfinity) return std::nullopt;
-  return std::array{nearest, farthest};
+  if (all.empty()) return std::nullopt;
+  const auto middle = all.begin() + std::ssize(all) / 2;
+  std::ranges::nth_element(all, middle);
+  return Distances{*std::min_element(all.begin(), middle + 1), *middle,
+                   *std::max_element(middle, all.end())};
 }
 
-/// For results without segments, a hint that the lengths may not be in metres.
-std::string about_units(const SegmentOptions& o, bool is_depth, const Cloud& cloud,
-                        const Segmentation& s) {
-  // In metres; no table top is so far away or so small.
-  constexpr double room = 50, crumb = 0.02;
-  const auto found = distances(cloud, s.tree.viewpoint);
-  if (!found)
-    return fmt::format("no point within {} m of the viewpoint: all are holes", o.max_range);
-  const auto [nearest, farthest] = *found;
-  const std::string unit =
-      is_depth ? "see " + mark(Setting::depth_scale) : std::string("lengths are in metres");
-  if (s.stages.front().points == 0) {
-    const std::string range = mark(Setting::max_range);
-    return fmt::format("no point within {} m of the viewpoint{}, the nearest is at {:.3g} m; {}",
-                       o.max_range, o.crop ? " and inside the crop box" : "", nearest,
-                       nearest > room ? fmt::format("{}: are these millimetres?", unit)
-                       : is_depth
-                           ? fmt::format("see {}; if that distance is wrong, see {}, the number of "
-                                         "units per metre",
-                                         range, mark(Setting::depth_scale))
-                           : "see " + range);
-  }
-  if (farthest >= crumb) return {};
-  return fmt::format("all points are within {:.3g} m of the viewpoint; {}", farthest, unit);
+// In metres. Nobody looks for things on a table that is farther away.
+constexpr double kRoom = 50;
+
+/// For results without segments, the doubt that lengths are in metres. Empty if there is none.
+std::string about_units(const SegmentOptions& o, bool is_depth, const Distances& found,
+                        Index in_range) {
+  // In metres. A scene in centimetres is not so far away, and no scene is so small.
+  constexpr double building = 300, crumb = 0.02;
+  const std::string scale = mark(Setting::depth_scale);
+  if (found.farthest < crumb)
+    return fmt::format("all points are within {:.3g} m of the viewpoint; {}", found.farthest,
+                       is_depth ? "see " + scale : "lengths are in metres");
+  // A share of the distance. In the coordinates of a map, all points are far from the origin.
+  constexpr double little = 0.01;
+  if (found.median <= kRoom || found.farthest - found.nearest < little * found.median) return {};
+  const bool is_far = found.median > building;
+  const std::string where =
+      in_range == 0 ? fmt::format(
+                          "no point within {} m of the viewpoint{}, the nearest is at "
+                          "{:.3g} m",
+                          o.max_range, o.crop ? " and inside the crop box" : "", found.nearest)
+                    : fmt::format("half of the points are more than {:.3g} m away", found.median);
+  if (is_depth) return fmt::format("{}; see {}: are these millimetres?", where, scale);
+  return fmt::format("{}: are these {}? if they are, {}", where,
+                     is_far ? "millimetres" : "centimetres",
+                     mark(Setting::depth_scale, is_far ? "1000" : "100"));
+}
+
+/// For results without segments, the reason why no points are in range.
+std::string about_range(const SegmentOptions& o, bool is_depth, double nearest) {
+  const std::string range = mark(nearest > kRoom ? Setting::viewpoint : Setting::max_range);
+  return fmt::format("no point within {} m of the viewpoint{}, the nearest is at {:.3g} m; see {}",
+                     o.max_range, o.crop ? " and inside the crop box" : "", nearest,
+                     is_depth ? fmt::format("{}; if that distance is wrong, see {}, the number of "
+                                            "units per metre",
+                                            range, mark(Setting::depth_scale))
+                              : range);
 }
 
 /// For results without segments, the number of points that could have formed a segment.
@@ -71,8 +97,25 @@ std::string about_nothing(const SegmentOptions& o, const Segmentation& s) {
                      mark(Setting::min_size));
 }
 
+/// Warns if most of the scene is out of range.
+std::string about_the_rest(const SegmentOptions& o, const InputCloud& cloud, Index in_range) {
+  constexpr double little = 0.1;  // the share of the points
+  const auto is_little = [&](Index points) {
+    return static_cast<double>(in_range) < little * static_cast<double>(points);
+  };
+  if (o.crop || in_range == 0 || !is_little(cloud.points)) return {};
+  const std::vector<float> xyz = cloud.xyz();
+  Index points = 0;
+  for (std::size_t i = 0; i + 2 < xyz.size(); i += 3)
+    points += std::isfinite(xyz[i] + xyz[i + 1] + xyz[i + 2]) ? 1 : 0;
+  if (!is_little(points)) return {};
+  return fmt::format("{} of {} points are within {} m of the viewpoint; see {}", in_range, points,
+                     o.max_range, mark(Setting::max_range));
+}
+
 /// Warns of coordinates so large that the distances between points are lost.
-std::string about_precision(const SegmentOptions& o, const Cloud& cloud, const Segmentation& s) {
+std::string about_precision(const SegmentOptions& o, const InputCloud& cloud,
+                            const Segmentation& s) {
   constexpr double much = 0.01;  // the share of the edge of a voxel
   float largest = 0;
   const auto take = [&](double x) {
@@ -93,7 +136,7 @@ std::string about_precision(const SegmentOptions& o, const Cloud& cloud, const S
 
 /// Warns if no pinhole camera would have these numbers. This is the case if its field of view is
 /// only a few degrees or nearly a half circle, or if its axis does not meet the image.
-std::string about_camera(const DepthSource& depth, const Cloud& cloud) {
+std::string about_camera(const DepthSource& depth, const InputCloud& cloud) {
   const Intrinsics camera = depth.camera.scaled_to(cloud.width, cloud.height).intrinsics;
   constexpr double least = 5, most = 160;  // in degrees
   const auto view = [](Index pixels, double focal_length) {
@@ -151,23 +194,61 @@ std::string about_viewpoint(const SegmentOptions& o, const Segmentation& s) {
       text(*s.rays_meet_at), mark(Setting::viewpoint, "X,Y,Z"));
 }
 
+/// The notes on a result whose points are known.
+std::vector<Message> notes_on(const Segmentation& s, const SegmentOptions& options,
+                              const InputCloud& cloud, const DepthSource* depth) {
+  std::vector<Message> texts;
+  const bool is_empty = s.cut.segments.empty() && cloud.points > 0;
+  const Index in_range = s.stages.front().points;
+  const auto found = is_empty ? distances(cloud, s.tree.viewpoint) : std::nullopt;
+  if (depth) texts.emplace_back(about_camera(*depth, cloud));
+  const std::string units =
+      found ? about_units(options, depth != nullptr, *found, in_range) : std::string();
+  if (!units.empty()) {
+    texts.emplace_back(units);  // in another unit, the other doubts have no meaning
+    return texts;
+  }
+  texts.emplace_back(about_precision(options, cloud, s));
+  texts.emplace_back(about_viewpoint(options, s));
+  if (is_empty && !found)
+    texts.emplace_back(
+        fmt::format("no point within {} m of the viewpoint: all are holes", options.max_range));
+  if (found && in_range == 0)
+    texts.emplace_back(about_range(options, depth != nullptr, found->nearest));
+  texts.emplace_back(about_the_rest(options, cloud, in_range));
+  if (is_empty) texts.emplace_back(about_nothing(options, s));
+  if (options.plane && !s.tree.plane && in_range > 0)
+    texts.emplace_back(s.plane_note + "; nothing removed");
+  return texts;
+}
+
+std::vector<Message> notes_of(const Segmentation& s, const SegmentOptions& options,
+                              const InputCloud* cloud, const DepthSource* depth) {
+  std::vector<Message> texts;
+  if (cloud && !s.stages.empty()) texts = notes_on(s, options, *cloud, depth);
+  if (!s.difference.empty()) texts.emplace(texts.begin(), "check: " + s.difference);
+  std::erase_if(texts, [](const Message& text) { return text.empty(); });
+  return texts;
+}
+
 }  // namespace
 
 std::vector<Message> notes(const Segmentation& s, const SegmentOptions& options, const Cloud* cloud,
                            const DepthSource* depth) {
-  std::vector<Message> texts;
-  if (!s.difference.empty()) texts.emplace_back("check: " + s.difference);
-  if (cloud && depth) texts.emplace_back(about_camera(*depth, *cloud));
-  if (cloud) texts.emplace_back(about_precision(options, *cloud, s));
-  if (cloud) texts.emplace_back(about_viewpoint(options, s));
-  if (cloud && s.cut.segments.empty() && cloud->size() > 0) {
-    texts.emplace_back(about_units(options, depth != nullptr, *cloud, s));
-    texts.emplace_back(about_nothing(options, s));
-  }
-  if (cloud && options.plane && !s.tree.plane && s.stages.front().points > 0)
-    texts.emplace_back(s.plane_note + "; nothing removed");
-  std::erase_if(texts, [](const Message& text) { return text.empty(); });
-  return texts;
+  if (!cloud) return notes_of(s, options, nullptr, depth);
+  const InputCloud input{cloud->size(), cloud->width, cloud->height, [&] { return cloud->xyz(); }};
+  return notes_of(s, options, &input, depth);
+}
+
+std::vector<Message> notes(const Segmentation& s, const SegmentOptions& options,
+                           const CloudView& cloud) {
+  const InputCloud input{static_cast<Index>(cloud.size()), cloud.width, cloud.height, [&] {
+                           std::vector<float> xyz;
+                           for (std::size_t i = 0; i < cloud.size(); ++i)
+                             xyz.insert(xyz.end(), cloud.point(i), cloud.point(i) + 3);
+                           return xyz;
+                         }};
+  return notes_of(s, options, &input, nullptr);
 }
 
 }  // namespace ph::segment

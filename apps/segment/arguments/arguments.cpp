@@ -43,7 +43,7 @@ void add_input_options(app::Options& options, Arguments& a) {
       "point cloud: .pcd, .ply, .npy, or text: .xyz, .csv, .pts; a stored merge tree (see --tree); "
       "with --camera or --intrinsics a depth image: .png, .pgm or .npy; - is standard input. "
       "Several, or a folder, are a stream of frames: its outputs are folders (FOLDER/) or have a * "
-      "for the frame's name, and --json gets one line a frame",
+      "for the frame's name, and --json gets one line per frame",
       a.inputs);
   options.path("--depth", "FILE.png|.pgm|.npy",
                "depth image in place of INPUT; 0 and NaN are holes", a.image.depth);
@@ -63,14 +63,16 @@ void add_input_options(app::Options& options, Arguments& a) {
       "values of a model",
       a.image.calibration);
   camera->excludes(intrinsics);
-  options.value({"--depth-scale", kOfDepth}, "S",
-                "depth units a metre (default: 1000, millimetres; floats: 1, metres)",
-                [&a](const std::string& v) { a.image.scale = depth_scale(v); });
+  options.value(
+      {"--depth-scale", kOfScenes}, "S",
+      "units per metre of a depth image (default: 1000, millimetres; floats: 1, metres) or "
+      "of the coordinates of a cloud (default: 1)",
+      [&a](const std::string& v) { a.image.scale = depth_scale(v); });
   options.flag({"--allow-empty", {kCloud | kAnyMethod | kAnyPlane, "clouds"}},
                "a cloud without points is an empty result (default: an error)", a.allow_empty);
   options.topic("streams");
   options.path("--frames-from", "FILE",
-               "a stream of the files that FILE names, one a line; -: standard input, each as "
+               "a stream of the files that FILE names, one per line; -: standard input, each as "
                "soon as it is named",
                a.frames_from);
   options.flag("--stable-labels",

@@ -25,7 +25,8 @@ struct DepthInput {
   std::string calibration;
   /// The value of --intrinsics, or the content of `calibration`.
   std::optional<Camera> camera;
-  /// The number of depth units per metre. If there is none, the number is guessed from the image.
+  /// The number of units per metre, of the depth or of the coordinates of a cloud. If there is
+  /// none, it is guessed from the image; a cloud is in metres.
   std::optional<double> scale;
 
   bool has_camera() const { return camera || !calibration.empty(); }

@@ -10,6 +10,7 @@
 
 #include "ph/barcode.hpp"
 #include "ph/detail/io/cloud_data.hpp"
+#include "ph/error.hpp"
 #include "ph/run_context.hpp"
 #include "ph/scene_tree.hpp"
 
@@ -153,6 +154,12 @@ Segmentation segment(const CloudView& cloud, const SegmentOptions& options = {},
 /// Segments a cloud as it was read from a file. Reads only x, y, z and the viewpoint.
 Segmentation segment(const Cloud& cloud, const SegmentOptions& options = {},
                      const RunContext& context = default_context());
+
+/// Warnings that a user should read before trusting the result, one line each: a missing plane, the
+/// reason for an empty result, and implausible units, coordinates or viewpoints. Message::str gives
+/// the text. @param options, cloud those of the call of `segment`.
+std::vector<Message> notes(const Segmentation& segmentation, const SegmentOptions& options,
+                           const CloudView& cloud);
 
 /// first_meeting of two segments of the cut.
 inline std::optional<Meeting> first_meeting(const Segmentation& s, std::uint32_t a,

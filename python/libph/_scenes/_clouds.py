@@ -27,18 +27,15 @@ def scene_of(data: Any, *, colours: Any, intrinsics: Any, camera: Any, depth_sca
     if intrinsics is not None and camera is not None:
         raise UsageError("camera: cannot be combined with intrinsics; leave out one of them")
     name = os.fsdecode(data) if is_path else ""
+    scale = None if depth_scale is None else _scale(depth_scale)
     if intrinsics is None and camera is None:
-        if depth_scale is not None:
-            raise UsageError("depth_scale: does nothing for a cloud; a depth image needs intrinsics "
-                             "or camera")
         if not is_path:
-            return Scene(_cloud(data, colours, run), name, False)
+            return Scene(_cloud(data, colours, scale, run), name, False)
         if colours is not None:
             raise UsageError("colours: does nothing for a cloud file, whose own colours are read")
-        return Scene(_run.run(_core.read_scene, _options.path_of(data, "cloud"), options=run), name,
-                     False)
+        return Scene(_run.run(_core.read_scene, _options.path_of(data, "cloud"), scale,
+                              options=run), name, False)
     seen_by = _camera(intrinsics, camera, run)
-    scale = None if depth_scale is None else _scale(depth_scale)
     if colours is not None and isinstance(colours, (str, bytes, os.PathLike)) != is_path:
         raise _options.refuse("colours", colours, "a path, like the depth image" if is_path
                               else "an array, like the depth image")
@@ -91,7 +88,7 @@ def _intrinsics(given: Any) -> list[float]:
     return [float(number) for number in numbers]
 
 
-def _cloud(data: Any, colours: Any, run: dict[str, Any]) -> _core.Cloud:
+def _cloud(data: Any, colours: Any, scale: float | None, run: dict[str, Any]) -> _core.Cloud:
     array = _arrays.as_array(data, "cloud")
     if array.size == 0 and array.ndim == 1:
         array = np.empty((0, 3))
@@ -108,21 +105,22 @@ def _cloud(data: Any, colours: Any, run: dict[str, Any]) -> _core.Cloud:
         raise DataError(f"cloud: {_arrays.place_of(index)}: found {points[index]}, expected a "
                         "finite number, or nan for a hole")
     bytes_of = None if colours is None else _colours(colours, points.shape[:-1])
-    return _run.run(_core.cloud_of_points, points, bytes_of, options=run)
+    return _run.run(_core.cloud_of_points, points, bytes_of, scale, options=run)
 
 
 def _depth(data: Any, colours: Any, camera: _core.Camera, scale: float | None, run: dict[str, Any]
            ) -> _core.Cloud:
     array = _arrays.as_array(data, "cloud")
     if array.ndim != 2:
+        hint = "; depth[..., 0] is one" if array.ndim == 3 and array.shape[2] == 1 else ""
         raise UsageError(f"cloud: found an array of shape {array.shape}, expected a depth image of "
-                         "rows and columns, because a camera is given")
-    if scale is None:  # masked integers have been converted to floats
-        given = data if _arrays.is_masked(data) else array
-        scale = 1.0 if given.dtype.kind == "f" else 1000.0
+                         f"rows and columns, because a camera is given{hint}")
+    given = data if _arrays.is_masked(data) else array  # masked integers have become floats
+    usual = 1.0 if given.dtype.kind == "f" else 1000.0
     image = _arrays.side_by_side(_arrays.as_image(array, "cloud"), "cloud")
     bytes_of = None if colours is None else _colours(colours, array.shape)
-    return _run.run(_core.cloud_of_depth, image, bytes_of, camera, scale, options=run)
+    return _run.run(_core.cloud_of_depth, image, bytes_of, camera, usual, scale,
+                    options=run)
 
 
 def _colours(data: Any, shape: tuple[int, ...]) -> NDArray[np.uint8]:

@@ -173,11 +173,26 @@ class Objects(Sequence[Segment]):
         """The lengths of the tight box of each object along its axes, (k, 3)."""
         return self._column("size", np.float64, (3,))
 
+    @property
+    def role(self) -> list[str]:
+        """The role of each object, such as "object" or "container"."""
+        return [s.role for s in self._segments]
+
+    @property
+    def on(self) -> list[tuple[str, int] | None]:
+        """What each object stands on, as `Segment.on`."""
+        return [s.on for s in self._segments]
+
     def to_pandas(self) -> pandas.DataFrame:
-        """A DataFrame with one row per object and the label as its index."""
+        """A DataFrame with one row per object and the label as its index.
+
+        The columns are `points`, `voxels`, `persistence`, `role`, `on`, and one column for each
+        number of `centroid`, `centre` and `size`.
+        """
         import pandas
         columns: dict[str, Any] = {"points": self.points, "voxels": self.voxels,
-                                   "persistence": self.persistence}
+                                   "persistence": self.persistence, "role": self.role,
+                                   "on": self.on}
         for name in ("centroid", "centre", "size"):
             values = getattr(self, name)
             for k, axis in enumerate("012" if name == "size" else "xyz"):

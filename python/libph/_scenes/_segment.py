@@ -13,7 +13,7 @@ import numpy as np
 
 from .. import _arrays, _core, _options, _run
 from .._errors import MemoryLimitError, UsageError
-from ._clouds import Scene, scene_of
+from ._clouds import scene_of
 from ._segmentation import Segmentation
 
 if TYPE_CHECKING:
@@ -105,7 +105,9 @@ def segment(cloud: Any, *, method: str | None = None, supervoxels: float | None 
         Instead of `intrinsics`: a calibration file (camera_info of ROS, OpenCV, Open3D, RealSense,
         BOP, or the nine numbers of a matrix), or the name of a camera, such as "realsense-d435".
     depth_scale : float, optional
-        Number of units of a depth image per metre.
+        Number of units per metre of a depth image, or of the coordinates of a cloud: 1000 for
+        millimetres. All results are in metres. Default: the scale of the camera, else 1000 for
+        depths of whole numbers, else 1.
     **run
         `threads`, `memory_limit`, `progress`, `timeout`, `stop`; see `libph`.
 
@@ -139,18 +141,20 @@ def segment(cloud: Any, *, method: str | None = None, supervoxels: float | None 
         found = _run.run(_core.segment, scene.cloud, options, options=given["run"])
     except MemoryLimitError as error:
         edges = "distance or " if given["method"] == "paper" else ""
-        raise MemoryLimitError(f"{error}; lower {edges}max_range, enlarge voxel, or raise "
+        message = str(error).removesuffix(_run.LARGER_LIMIT)
+        raise MemoryLimitError(f"{message}; lower {edges}max_range, enlarge voxel, or raise "
                                "memory_limit") from None
-    return Segmentation._of(found, scene.name, _told(scene, found))
+    return Segmentation._of(found, scene.name, _told(scene.cloud, scene.name, found))
 
 
-def _told(scene: Scene, found: _core.Segmentation) -> list[str]:
+def _told(cloud: _core.Cloud, name: str, found: _core.Segmentation) -> list[str]:
     """The warnings for the user, which the result also keeps."""
-    for note in scene.cloud.notes:
-        _LOG.info("%s: %s", scene.name or "cloud", note)
-    for note in found.notes:
-        warnings.warn(note, UserWarning, stacklevel=3)
-    return scene.cloud.notes + found.notes
+    for note in cloud.notes:
+        _LOG.info("%s: %s", name or "cloud", note)
+    doubts = cloud.guesses + found.notes
+    for doubt in doubts:
+        warnings.warn(doubt, UserWarning, stacklevel=3)
+    return cloud.notes + doubts
 
 
 def _require_no_options(given: dict[str, Any]) -> None:

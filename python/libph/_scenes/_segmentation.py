@@ -76,6 +76,8 @@ class Segmentation:
     surface_labels : ndarray
         The surface of each point, counted from 1; 0 for none. It has the shape of `labels`.
         Read-only.
+    points : ndarray
+        The points of the cloud, in the order of `labels`.
     tree : MergeTree
         The merge tree of the voxels. `voxels` gives their positions.
     voxels : Voxels
@@ -132,6 +134,17 @@ class Segmentation:
     def __reduce__(self) -> tuple[Any, ...]:
         told = (self.meta.get("path", ""), self.meta["notes"], self.meta["version"])
         return (_restored, (_STATE_VERSION, with_arrays(self._found.state()), told))
+
+    @property
+    def points(self) -> NDArray[np.float64]:
+        """The points of the cloud, in metres and in the order of `labels`: ``points[labels == 1]``
+        are the points of the first object. Shape ``(*labels.shape, 3)``; a hole has NaN.
+
+        Raises UsageError for a stored tree, which has no cloud.
+        """
+        if not self._found.has_cloud:
+            raise UsageError("points: a stored tree has no cloud; its voxels have centroids")
+        return np.asarray(self._found.points).reshape(*self.labels.shape, 3)
 
     @property
     def tree(self) -> MergeTree:

@@ -41,8 +41,10 @@ void add_field(Cloud& cloud, const char* name, FieldType type) {
 
 /// @param xyz float64 in C order, as one row of points or as rows and columns of points.
 /// @param colours the colour of each point, as bytes; if not given, the cloud has no colours.
+/// @param scale units per metre; if not given, the points are in metres.
 std::shared_ptr<SceneCloud> cloud_of_points(const py::buffer& xyz,
                                             const std::optional<py::buffer>& colours,
+                                            std::optional<double> scale,
                                             const RunOptions& options) {
   const py::buffer_info array = xyz.request();
   if (!holds<double>(array) || array.ndim < 2 || array.shape.back() != 3)
@@ -71,6 +73,7 @@ std::shared_ptr<SceneCloud> cloud_of_points(const py::buffer& xyz,
         std::memcpy(record + size,
                     of_points.data + i * static_cast<std::size_t>(of_points.channels), 3);
     }
+    if (scale) cloud.to_metres(*scale);
   });
   return scene;
 }
@@ -78,14 +81,16 @@ std::shared_ptr<SceneCloud> cloud_of_points(const py::buffer& xyz,
 Cloud cloud_of(const DepthImage& depth, const std::optional<Raster>& colour,
                std::optional<double> scale, SceneCloud& scene) {
   return segment::cloud_of_depth(depth, colour, scene.camera->camera, scene.camera->calibration,
-                                 scale, note_into(scene.notes));
+                                 scale, note_into(scene.notes, scene.guesses));
 }
 
 /// @param image an array of two axes in C order, with one of the voxel types.
+/// @param usual the scale of such arrays, which is used if neither `scale` nor the camera gives
+/// one.
 std::shared_ptr<SceneCloud> cloud_of_depth(const py::buffer& image,
                                            const std::optional<py::buffer>& colours,
-                                           std::shared_ptr<NamedCamera> camera, double scale,
-                                           const RunOptions& options) {
+                                           std::shared_ptr<NamedCamera> camera, double usual,
+                                           std::optional<double> scale, const RunOptions& options) {
   const py::buffer_info array = image.request();
   std::optional<py::buffer_info> colour_array;
   if (colours) colour_array = colours->request();
@@ -97,7 +102,7 @@ std::shared_ptr<SceneCloud> cloud_of_depth(const py::buffer& image,
     context->memory.require(pixels * 4 * sizeof(float));
     const std::vector<Index> extents(array.shape.begin(), array.shape.end());
     const DepthImage depth{
-        {extents, Voxels(BorrowedVoxels{voxel_type_of(array), array.ptr, pixels})}, scale};
+        {extents, Voxels(BorrowedVoxels{voxel_type_of(array), array.ptr, pixels})}, usual};
     std::optional<Raster> colour;
     if (colour_array) {
       const Colours of_pixels = colours_of(*colour_array);
@@ -166,10 +171,12 @@ void bind_clouds(py::module_& m) {
   m.def("camera_named", &camera_of_name, py::arg("name"));
   m.def("read_camera", &read_camera, py::arg("path"), py::arg("run"));
   py::class_<SceneCloud, std::shared_ptr<SceneCloud>>(m, "Cloud")
-      .def_readonly("notes", &SceneCloud::notes);
-  m.def("cloud_of_points", &cloud_of_points, py::arg("xyz"), py::arg("colours"), py::arg("run"));
+      .def_readonly("notes", &SceneCloud::notes)
+      .def_readonly("guesses", &SceneCloud::guesses);
+  m.def("cloud_of_points", &cloud_of_points, py::arg("xyz"), py::arg("colours"), py::arg("scale"),
+        py::arg("run"));
   m.def("cloud_of_depth", &cloud_of_depth, py::arg("image"), py::arg("colours"), py::arg("camera"),
-        py::arg("scale"), py::arg("run"));
+        py::arg("usual"), py::arg("scale"), py::arg("run"));
   m.def("read_depth", &read_depth, py::arg("path"), py::arg("colour_path"), py::arg("camera"),
         py::arg("scale"), py::arg("run"));
 }

@@ -11,10 +11,14 @@
 
 namespace ph::python {
 
-/// Collects notes in the terms of the Python interface. @param notes must outlive the result.
-inline segment::Note note_into(std::vector<std::string>& notes) {
-  return [&notes](const Message& text) { notes.push_back(text.in_words(kWords)); };
+/// Collects notes in the terms of the Python interface, apart from guesses about the input.
+/// @param notes, guesses must outlive the result.
+inline segment::Note note_into(std::vector<std::string>& notes, std::vector<std::string>& guesses) {
+  return [&](const Message& text) {
+    (text.is_guess() ? guesses : notes).push_back(text.in_words(kWords));
+  };
 }
+inline segment::Note note_into(std::vector<std::string>& notes) { return note_into(notes, notes); }
 
 /// A camera, and the notes about it.
 struct NamedCamera {
@@ -29,7 +33,7 @@ struct SceneCloud {
   Cloud cloud;
   /// The camera of a depth image; null for other clouds.
   std::shared_ptr<const NamedCamera> camera;
-  std::vector<std::string> notes = {};
+  std::vector<std::string> notes = {}, guesses = {};
 };
 
 /// The result of a segmentation, with its input.

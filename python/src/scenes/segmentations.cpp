@@ -57,7 +57,9 @@ SegmentedScene segment_cloud(std::shared_ptr<SceneCloud> cloud, const SegmentOpt
 }
 
 /// Reads a cloud, or a stored tree of a cloud.
-py::object read_scene(const std::string& path, const RunOptions& options) {
+/// @param scale units per metre of the cloud; if not given, it is in metres.
+py::object read_scene(const std::string& path, std::optional<double> scale,
+                      const RunOptions& options) {
   std::shared_ptr<SceneCloud> cloud;
   std::optional<SegmentedScene> stored;
   run_task(options, false, [&](const SharedContext& context) {
@@ -72,8 +74,12 @@ py::object read_scene(const std::string& path, const RunOptions& options) {
       how.allow_empty = true;
       how.note = note_into(cloud->notes);
       cloud->cloud = ph::read_cloud(input, how);
+      if (scale) cloud->cloud.to_metres(*scale);
       return;
     }
+    if (scale)
+      throw Error(ErrorKind::usage,
+                  mark(Setting::depth_scale) + ": does nothing for a stored tree");
     stored.emplace().result = segmentation_of_tree(input, *context);
   });
   return stored ? py::cast(std::move(*stored)) : py::cast(std::move(cloud));
@@ -321,6 +327,8 @@ void bind_segmentations(py::module_& m) {
   py::class_<SegmentedScene>(m, "Segmentation")
       .def_property_readonly("has_cloud",
                              [](const SegmentedScene& s) { return s.cloud() != nullptr; })
+      .def_property_readonly(
+          "points", [](const SegmentedScene& s) { return Block::of(points_of(*s.cloud())); })
       .def_readonly("notes", &SegmentedScene::notes)
       .def_property_readonly("facts", &facts)
       .def_property_readonly("labels", &labels)
@@ -363,7 +371,7 @@ void bind_segmentations(py::module_& m) {
       .def("update", &track, py::arg("scene"))
       .def("update_labels", &track_labels, py::arg("labels"));
   m.def("segment", &segment_cloud, py::arg("cloud"), py::arg("options"), py::arg("run"));
-  m.def("read_scene", &read_scene, py::arg("path"), py::arg("run"));
+  m.def("read_scene", &read_scene, py::arg("path"), py::arg("scale"), py::arg("run"));
 }
 
 }  // namespace ph::python

@@ -139,6 +139,19 @@ def test_depth_images(program, seed):
         check(ph.segment(np.asfortranarray(image), intrinsics=matrix, **options), expected)
 
 
+def test_the_scale_of_a_camera_is_used_for_arrays(tmp_path):
+    fx, fy, cx, cy = CAMERA
+    camera = tmp_path / "camera.json"
+    camera.write_text(json.dumps({"fx": fx, "fy": fy, "cx": cx, "cy": cy, "depth_scale": 5000}))
+    depth = depth_of_scene(np.random.default_rng(1))
+    units = np.nan_to_num(depth * 5000).astype(np.uint16)
+    np.save(tmp_path / "depth.npy", units)
+    by_camera = ph.segment(units, camera=camera)
+    assert by_camera == ph.segment(units, intrinsics=CAMERA, depth_scale=5000)
+    assert by_camera == ph.segment(tmp_path / "depth.npy", camera=camera)
+    assert len(by_camera.objects) == len(ph.segment(depth, camera=camera).objects)
+
+
 def png(array):
     """A PNG file of an RGB image with 8 bits per channel."""
     rows = b"".join(b"\0" + row.tobytes() for row in array)

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import libph as ph
-from scenes import CAMERA, TABLE, points_of_scene
+from scenes import CAMERA, TABLE, depth_of_scene, points_of_scene
 
 
 # ---- a number of objects
@@ -86,7 +86,9 @@ def test_clouds_of_nothing(cloud):
         found = ph.segment(cloud, **options)
         assert found.labels.shape == np.shape(cloud)[:-1] or found.labels.size == 0
         assert found._repr_html_() and repr(found) and repr(found.objects)
-        assert len(found.objects.to_pandas()) == len(found.objects) <= 1
+        table = found.objects.to_pandas()
+        assert len(table) == len(found.objects) <= 1
+        assert list(table.role) == found.objects.role and list(table.on) == found.objects.on
         assert found.cut(0.0).labels.shape == found.labels.shape
         assert len(found.tree) == len(found.voxels.points)
 
@@ -116,7 +118,7 @@ DEPTH = np.full((20, 30), 0.5)
     (DEPTH, {"intrinsics": CAMERA, "colours": np.zeros((20, 31, 3), np.uint8)}, ph.UsageError,
      r"colours: found an array of shape \(20, 31, 3\), expected \(20, 30, 3\)"),
     (CLOUD, {"colours": CLOUD * 2}, ph.DataError, "colours: row .* a number from 0 to 1"),
-    (CLOUD, {"depth_scale": 1000}, ph.UsageError, "depth_scale: does nothing for a cloud"),
+    (CLOUD, {"depth_scale": 0}, ph.UsageError, "depth_scale: found 0"),
     (CLOUD, {"method": "best"}, ph.UsageError, "method: found 'best', expected"),
     (CLOUD, {"method": "paper", "supervoxels": 0.1}, ph.UsageError, "supervoxels: found method"),
     (CLOUD, {"method": "paper", "min_part": 3}, ph.UsageError, "min_part: does nothing"),
@@ -206,6 +208,34 @@ def test_doubts_are_warnings():
     offset = np.array([5e5, 4e6, 100])  # coordinates as in a map
     words = doubts(points / 1000 + offset, viewpoint=offset)[1]
     assert "single precision has steps of 0.25 m; subtract" in words
+
+
+def test_a_picture_needs_a_camera(tmp_path):
+    (tmp_path / "depth.png").write_bytes(b"\x89PNG\r\n\x1a\n" + bytes(100))
+    with pytest.raises(ph.DataError, match="found PNG, .*a depth image needs a camera: camera or"):
+        ph.segment(tmp_path / "depth.png")
+
+
+def test_points_have_the_order_of_labels(tmp_path):
+    depth = depth_of_scene(np.random.default_rng(2))
+    found = ph.segment(depth, intrinsics=CAMERA)
+    assert found.points.shape == (120, 160, 3)
+    assert np.allclose(found.points[..., 2], depth, equal_nan=True)
+    assert (found.labels == 1).sum() == len(found.points[found.labels == 1]) > 0
+    found.save(tmp_path / "cloud.pcd")
+    again = ph.segment(tmp_path / "cloud.pcd")
+    assert np.array_equal(again.points, found.points, equal_nan=True)
+    found.save(tmp_path / "scene.tree")
+    with pytest.raises(ph.UsageError, match="a stored tree has no cloud"):
+        ph.segment(tmp_path / "scene.tree").points
+
+
+def test_depths_that_look_like_grey_are_doubted():
+    depth = np.nan_to_num(depth_of_scene(np.random.default_rng(2)))
+    with pytest.warns(UserWarning, match="no depth is above 255.*depth_scale"):
+        found = ph.segment(np.uint8(100 * depth), intrinsics=CAMERA)
+    assert any("no depth is above 255" in note for note in found.meta["notes"])
+    assert len(ph.segment(np.uint8(100 * depth), intrinsics=CAMERA, depth_scale=100).objects) > 1
 
 
 # ---- runs

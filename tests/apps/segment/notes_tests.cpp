@@ -18,13 +18,13 @@ class Notes : public test::Program {
     for (float& x : xyz) x = static_cast<float>(x * factor);
     write_cloud(at(name), test::cloud_of(xyz, scene_.kWidth, scene_.kHeight));
   }
-  /// Writes the depth image in millimetres.
-  void write_depth() {
+  /// Writes the depth image in this unit. By default, it is in millimetres.
+  void write_depth(double units_per_metre = 1000) {
     Raster depth{scene_.kWidth, scene_.kHeight, 1, 16, {}};
     for (std::size_t i = 0; i < scene_.truth().size(); ++i) {
       const float z = scene_.xyz()[3 * i + 2];
       depth.samples.push_back(
-          static_cast<std::uint16_t>(std::isnan(z) ? 0 : std::lround(z * 1000)));
+          static_cast<std::uint16_t>(std::isnan(z) ? 0 : std::lround(z * units_per_metre)));
     }
     std::ofstream file(at("d.png"), std::ios::binary);
     write_png(file, depth);
@@ -36,12 +36,38 @@ TEST_F(Notes, MillimetresAndMetres) {
   write_scaled("mm.pcd", 1000);
   EXPECT_EQ(run("mm.pcd"), 0);
   EXPECT_TRUE(notes("no point within 2 m of the viewpoint, the nearest is at 7")) << err();
-  EXPECT_TRUE(notes("lengths are in metres: are these millimetres?")) << err();
+  EXPECT_TRUE(notes("are these millimetres? if they are, --depth-scale 1000")) << err();
+  EXPECT_EQ(std::ranges::count(err(), '\n'), 2) << "one note and the summary: " << err();
+  EXPECT_EQ(run("scene.pcd --json m.json"), 0);
+  EXPECT_EQ(run("mm.pcd --depth-scale 1000 --json mm.json"), 0);
+  EXPECT_TRUE(notes("2 segments")) << err();
+  EXPECT_FALSE(notes("are these")) << err();
+  write_scaled("cm.pcd", 100);
+  EXPECT_EQ(run("cm.pcd"), 0);
+  EXPECT_TRUE(notes("are these centimetres? if they are, --depth-scale 100\n")) << err();
+  // A hole at the origin is in range.
+  std::vector<float> xyz = scene_.xyz();
+  for (float& x : xyz) x = std::isnan(x) ? 0 : 1000 * x;
+  write_cloud(at("zeros.pcd"), test::cloud_of(xyz, scene_.kWidth, scene_.kHeight));
+  EXPECT_EQ(run("zeros.pcd"), 0);
+  EXPECT_TRUE(notes("half of the points are more than")) << err();
   write_scaled("km.pcd", 0.001);
   EXPECT_EQ(run("km.pcd"), 0);
   EXPECT_TRUE(notes("all points are within 0.00")) << err();
   EXPECT_EQ(run("scene.pcd --max-range 0.1"), 0);
   EXPECT_TRUE(notes("see --max-range")) << err();
+}
+
+TEST_F(Notes, MostOfTheSceneIsOutOfRange) {
+  std::vector<float> xyz = scene_.xyz();
+  const std::size_t first = 120 * 3 * scene_.kWidth, last = first + 15 * 3 * scene_.kWidth;
+  for (std::size_t i = 0; i < xyz.size(); ++i)
+    if (i < first || i >= last) xyz[i] *= 4;
+  write_cloud(at("far.pcd"), test::cloud_of(xyz, scene_.kWidth, scene_.kHeight));
+  EXPECT_EQ(run("far.pcd"), 0);
+  EXPECT_TRUE(notes("points are within 2 m of the viewpoint; see --max-range")) << err();
+  EXPECT_EQ(run("far.pcd --max-range inf"), 0);
+  EXPECT_FALSE(notes("see --max-range")) << err();
 }
 
 TEST_F(Notes, DepthImages) {
@@ -63,7 +89,7 @@ TEST_F(Notes, DepthImages) {
   EXPECT_EQ(run("d.png --camera no.yaml"), 66);
   EXPECT_FALSE(notes("did you mean")) << err();
   ASSERT_EQ(run("d.png --depth-scale 1 " + camera), 0);
-  EXPECT_TRUE(notes("--depth-scale: are these millimetres?")) << err();
+  EXPECT_TRUE(notes("see --depth-scale: are these millimetres?")) << err();
   ASSERT_EQ(run("d.png --depth-scale 1000000 " + camera), 0);
   EXPECT_TRUE(notes("see --depth-scale")) << err();
   for (const char* absurd : {"0.26,0.26,159.5,119.5", "260000,260000,159.5,119.5"}) {
@@ -74,6 +100,11 @@ TEST_F(Notes, DepthImages) {
   EXPECT_TRUE(notes("the principal point 1595, 119.5 is outside")) << err();
   EXPECT_EQ(run("d.png"), 64);
   EXPECT_EQ(run("scene.pcd " + camera), 64);
+  write_depth(100);  // as in a picture of the depth
+  ASSERT_EQ(run("d.png " + camera), 0);
+  EXPECT_TRUE(notes("no depth is above 255")) << err();
+  ASSERT_EQ(run("d.png --depth-scale 100 " + camera), 0);
+  EXPECT_FALSE(notes("no depth is above 255")) << err();
 }
 
 /// Uses the coordinates of a robot: z points up, and the table is at 0.75 m.

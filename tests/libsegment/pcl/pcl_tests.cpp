@@ -31,6 +31,20 @@ class Adapter : public testing::Test {};
 using PointTypes = testing::Types<::pcl::PointXYZ, ::pcl::PointXYZRGB, ::pcl::PointXYZRGBNormal>;
 TYPED_TEST_SUITE(Adapter, PointTypes);
 
+TEST(PclAdapter, TellsWhatIsDoubtful) {
+  const auto cloud = cloud_of<::pcl::PointXYZ>(TableScene::two_boxes());
+  PersistenceSegmentation<::pcl::PointXYZ> segmentation;
+  segmentation.setInputCloud(cloud);
+  std::vector<::pcl::PointIndices> clusters;
+  segmentation.segment(clusters);
+  EXPECT_TRUE(segmentation.getNotes().empty());
+  for (auto& point : *cloud) point.getVector3fMap() *= 1000;
+  segmentation.segment(clusters);
+  EXPECT_TRUE(clusters.empty());
+  ASSERT_EQ(segmentation.getNotes().size(), 1U);
+  EXPECT_NE(segmentation.getNotes().front().find("are these millimetres?"), std::string::npos);
+}
+
 TYPED_TEST(Adapter, AgreesWithPlainArrays) {
   const TableScene scene = TableScene::two_boxes();
   const auto expected = ph::segment::segment(ph::segment::CloudView{scene.xyz(), {}});

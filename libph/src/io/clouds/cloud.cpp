@@ -132,6 +132,28 @@ std::vector<float> Cloud::xyz() const {
   return result;
 }
 
+void Cloud::to_metres(double units_per_metre) {
+  check();
+  for (const std::string_view name : {"x", "y", "z"}) {
+    const CloudField& field = coordinate(*this, name);
+    detail::visit_type(field.type, [&]<class T>(T) {
+      if constexpr (!std::is_floating_point_v<T>) {
+        throw Error(ErrorKind::bad_data,
+                    fmt::format("cloud: found the field {} of whole numbers, which cannot hold "
+                                "metres, expected floats",
+                                name));
+      } else {
+        for (std::size_t i = 0; i < static_cast<std::size_t>(size()); ++i) {
+          std::byte* at = data.data() + i * stride + field.offset;
+          const T value = static_cast<T>(load<T>(at, std::endian::native) / units_per_metre);
+          std::memcpy(at, &value, sizeof value);
+        }
+      }
+    });
+  }
+  for (std::size_t k = 0; k < 3; ++k) viewpoint[k] /= units_per_metre;
+}
+
 std::optional<std::vector<std::uint32_t>> Cloud::rgb() const {
   check();
   const auto points = static_cast<std::size_t>(size());

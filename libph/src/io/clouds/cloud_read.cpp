@@ -6,8 +6,19 @@
 #include "ph/io/cloud.hpp"
 
 namespace ph {
+namespace {
+
+void refuse_picture(const Input& input) {
+  if (!detail::is_png(input)) return;
+  input.fail({"a picture", "PNG", "a cloud in PCD, PLY, NPY or text",
+              fmt::format("a depth image needs a camera: {} or {}", mark(Setting::camera),
+                          mark(Setting::intrinsics))});
+}
+
+}  // namespace
 
 Cloud read_cloud(const Input& input, const ReadOptions& options) {
+  refuse_picture(input);
   if (!input.member().empty()) {
     input.fail({"a part of a file", printable(input.member(), 40), "the file itself", {}});
   }
@@ -36,6 +47,7 @@ Cloud read_cloud(const Input& input, const ReadOptions& options) {
 
 Input::StartCheck cloud_start_check() {
   return [](const Input& start) {
+    refuse_picture(start);
     const bool is_mesh = detail::is_ply(start) || start.extension() == ".ply";
     const bool is_pcd = detail::is_pcd(start) || start.extension() == ".pcd";
     const bool is_array = detail::is_npy(start);

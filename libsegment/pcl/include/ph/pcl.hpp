@@ -274,12 +274,15 @@ class PersistenceSegmentation : public ::pcl::PCLBase<PointT> {
   void segment(std::vector<::pcl::PointIndices>& clusters) {
     clusters.clear();
     result_ = segment::Segmentation();
+    notes_.clear();
     if (!this->initCompute()) return;
     std::vector<float> chosen;  // points without an index are holes
     if (!this->fake_indices_) chosen = coordinates(*this->input_, this->indices_.get());
     const segment::CloudView cloud =
         this->fake_indices_ ? cloud_view(*this->input_) : cloud_view(*this->input_, chosen);
     result_ = ph::segment::segment(cloud, options_, *context_);
+    for (const Message& note : segment::notes(result_, options_, cloud))
+      notes_.push_back(note.str());
     clusters = point_indices(result_.cut, this->input_->header);
     this->deinitCompute();
   }
@@ -299,6 +302,9 @@ class PersistenceSegmentation : public ::pcl::PCLBase<PointT> {
   /// The entire result of the last call: the segments with boxes and neighbours, the tree, and
   /// times.
   const segment::Segmentation& result() const { return result_; }
+  /// What to know before one trusts the result of the last call of `segment`: a missing plane, the
+  /// reason for an empty result, implausible units, coordinates or viewpoints.
+  const std::vector<std::string>& getNotes() const { return notes_; }
   const std::vector<segment::Segment>& getSegments() const { return result_.cut.segments; }
   /// The supports and walls, which are not segments. Segment::on names the support of a segment.
   const std::vector<segment::SceneSurface>& getSurfaces() const { return result_.tree.surfaces; }
@@ -354,6 +360,7 @@ class PersistenceSegmentation : public ::pcl::PCLBase<PointT> {
   const RunContext* context_ = &default_context();
   segment::SegmentOptions options_;
   segment::Segmentation result_;
+  std::vector<std::string> notes_;
 };
 
 }  // namespace ph::pcl

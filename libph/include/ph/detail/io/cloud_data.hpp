@@ -47,6 +47,9 @@ struct Cloud {
   /// The x, y, z of every point as float32 triples (3 * size() numbers); NaN where the cloud has a
   /// hole. @throws Error (bad_data) if x, y or z is missing, or beyond single precision.
   std::vector<float> xyz() const;
+  /// Divides x, y and z of the points and of the viewpoint by this number, which must be above 0.
+  /// @throws Error (bad_data) if a coordinate is a field of whole numbers.
+  void to_metres(double units_per_metre);
   /// The colours as packed 0x00RRGGBB, one per point; empty if the cloud has none.
   std::optional<std::vector<std::uint32_t>> rgb() const;
   /// Sets one number per point in a field of type uint32.

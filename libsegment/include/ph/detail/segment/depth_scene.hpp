@@ -23,13 +23,13 @@ std::optional<Camera> camera_named(std::string_view name, const Note& note);
 /// @throws Error like ph::read_camera.
 Camera calibrated_camera(const std::string& path, const Note& note, const RunContext& context);
 
-/// The cloud of a depth image, with notes on a camera that was scaled to the image and on pixels
-/// that became holes.
+/// The cloud of a depth image, with notes on a camera that was scaled to the image, on depths that
+/// look like grey, and on pixels that became holes.
 /// @param calibration the name or file of the camera; empty: it was given as numbers.
-/// @param scale depth units per metre; empty: guessed from the image.
+/// @param given depth units per metre; empty: the camera's, or guessed from the image.
 /// @throws Error (usage) if the camera's images have another shape; else like ph::cloud_from_depth.
 Cloud cloud_of_depth(const DepthImage& image, const std::optional<Raster>& colour,
                      const Camera& camera, std::string_view calibration,
-                     std::optional<double> scale, const Note& note);
+                     std::optional<double> given, const Note& note);
 
 }  // namespace ph::segment

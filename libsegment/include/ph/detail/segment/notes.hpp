@@ -14,9 +14,7 @@ struct DepthSource {
   Setting setting;  ///< Setting::intrinsics or Setting::camera, whichever the camera came from
 };
 
-/// Warnings that a user should read before trusting the result, one line each: the difference that
-/// the check found, a missing plane, the reason for an empty result, and implausible units,
-/// coordinates, cameras or viewpoints.
+/// As the function in ph/segment.hpp, with notes on the camera of a depth image.
 /// @param cloud null: a stored tree was cut. @param depth null: the input was not a depth image.
 std::vector<Message> notes(const Segmentation& segmentation, const SegmentOptions& options,
                            const Cloud* cloud, const DepthSource* depth);
