@@ -56,7 +56,8 @@ std::string about_units(const SegmentOptions& o, bool is_depth, const Distances&
                        is_depth ? "see " + scale : "lengths are in metres");
   // A share of the distance. In the coordinates of a map, all points are far from the origin.
   constexpr double little = 0.01;
-  if (found.median <= kRoom || found.farthest - found.nearest < little * found.median) return {};
+  const bool is_map = !is_depth && found.farthest - found.nearest < little * found.median;
+  if (found.median <= kRoom || is_map) return {};
   const bool is_far = found.median > building;
   const std::string where =
       in_range == 0 ? fmt::format(
@@ -72,7 +73,8 @@ std::string about_units(const SegmentOptions& o, bool is_depth, const Distances&
 
 /// For results without segments, the reason why no points are in range.
 std::string about_range(const SegmentOptions& o, bool is_depth, double nearest) {
-  const std::string range = mark(nearest > kRoom ? Setting::viewpoint : Setting::max_range);
+  const bool is_map = !is_depth && nearest > kRoom;
+  const std::string range = mark(is_map ? Setting::viewpoint : Setting::max_range);
   return fmt::format("no point within {} m of the viewpoint{}, the nearest is at {:.3g} m; see {}",
                      o.max_range, o.crop ? " and inside the crop box" : "", nearest,
                      is_depth ? fmt::format("{}; if that distance is wrong, see {}, the number of "

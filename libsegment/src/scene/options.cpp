@@ -80,11 +80,10 @@ void validate(const CloudView& cloud, const SegmentOptions& o) {
   }
   if (!o.crop) return;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    require(
-        o.crop->min[axis] < o.crop->max[axis], Setting::crop, o.crop->min[axis],
-        fmt::format("less than {}, the other end of axis {}; the two ends of x come first, then "
-                    "the ends of y and of z",
-                    o.crop->max[axis], "xyz"[axis]));
+    require(o.crop->min[axis] <= o.crop->max[axis], Setting::crop, o.crop->min[axis],
+            fmt::format("at most {}, the other end of axis {}; the two ends of x come first, then "
+                        "the ends of y and of z",
+                        o.crop->max[axis], "xyz"[axis]));
   }
 }
 

@@ -186,7 +186,7 @@ SEGMENT = [
     (49, ["--steps", "10"], "--method paper only"),
     (49, ["--method", "paper", "--min-part", "3"], "found --method paper"),
     (49, ["--plane", "off", "--plane-distance", "0.01"], "--plane on"),
-    (49, ["--depth-scale", "1000"], "found a cloud"),
+    (49, ["--depth-scale", "inf"], "--depth-scale"),
     (49, ["--plot", "x.svg", "--plot-view", "1,2"], "--plot-kind cloud"),
     (49, ["--plot", "x.pdf"], "--plot"),
     (49, ["--barcode", "x.xlsx"], "--barcode"),
