@@ -11,7 +11,10 @@ int main(int argc, char** argv) {
     return 64;
   }
   const auto cloud = ph::segment::read_cloud(argv[1]);
-  const auto parts = ph::segment::segment(cloud, {.voxel = 0.01});  // metres
+  const ph::segment::SegmentOptions options{.voxel = 0.01};  // metres
+  const auto parts = ph::segment::segment(cloud, options);
+  for (const ph::Message& note : ph::segment::notes(parts, options, cloud))
+    std::cerr << note.str() << "\n";  // why nothing was found, or what looks wrong
   for (const auto& segment : parts.cut.segments) {
     std::cout << "segment " << segment.label << ": " << segment.points << " points, "
               << segment.voxels << " voxels around (" << segment.centroid[0] << ", "

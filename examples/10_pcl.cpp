@@ -25,6 +25,7 @@ int main(int argc, char** argv) {
   segmentation.setMaxRange(1.5);  // metres
   std::vector<pcl::PointIndices> clusters;
   segmentation.segment(clusters);
+  for (const std::string& note : segmentation.getNotes()) std::cerr << note << "\n";
   const ph::segment::SceneTree& tree = segmentation.getTree();
   std::cout << clusters.size() << " segments of " << tree.width << " x " << tree.height
             << " points\n";

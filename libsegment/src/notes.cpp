@@ -243,6 +243,11 @@ std::vector<Message> notes(const Segmentation& s, const SegmentOptions& options,
 }
 
 std::vector<Message> notes(const Segmentation& s, const SegmentOptions& options,
+                           const Cloud& cloud) {
+  return notes(s, options, &cloud, nullptr);
+}
+
+std::vector<Message> notes(const Segmentation& s, const SegmentOptions& options,
                            const CloudView& cloud) {
   const InputCloud input{static_cast<Index>(cloud.size()), cloud.width, cloud.height, [&] {
                            std::vector<float> xyz;

@@ -33,12 +33,15 @@ Points stacked(PointsView points, PointsView added) {
 /// The points of a hierarchy, followed by the added points.
 class JointPoints {
  public:
-  JointPoints(PointsView points, PointsView added, PointDistance distance, double p)
+  JointPoints(PointsView points, PointsView added, PointDistance distance, double p,
+              const RunContext& context)
       : first_(points.rows()),
         all_(stacked(points, added)),
         metric_(all_, distance, p),
         distance_(distance),
-        p_(p) {}
+        p_(p) {
+    metric_.keep_directions(context);
+  }
 
   Index first() const { return first_; }
   Index added() const { return all_.rows() - first_; }
@@ -123,7 +126,7 @@ class JointPoints {
 
   const Index first_;
   const Points all_;
-  const PointMetric metric_;
+  PointMetric metric_;
   const PointDistance distance_;
   const double p_;
 };
@@ -133,7 +136,7 @@ class JointPoints {
 std::vector<Attachment> attachments(PointsView points, std::span<const double> births,
                                     PointsView added, std::span<const double> added_births,
                                     PointDistance distance, double p, const RunContext& context) {
-  const JointPoints joint(points, added, distance, p);
+  const JointPoints joint(points, added, distance, p, context);
   if (static_cast<Index>(births.size()) != joint.first() ||
       static_cast<Index>(added_births.size()) != joint.added())
     throw Error(ErrorKind::usage,
@@ -159,7 +162,7 @@ std::vector<double> core_distances_among(PointsView points, PointsView added, In
   if (neighbours < 0)
     throw Error(ErrorKind::usage,
                 fmt::format("core neighbours: found {}, expected at least 0", neighbours));
-  const JointPoints joint(points, added, distance, p);
+  const JointPoints joint(points, added, distance, p, context);
   std::vector<double> result(static_cast<std::size_t>(joint.added()),
                              neighbours == 0 ? 0 : kInfinity);
   if (neighbours == 0 || neighbours >= joint.first()) return result;

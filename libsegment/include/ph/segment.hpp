@@ -50,8 +50,8 @@ struct SegmentOptions {
   double max_range = 2.0;        ///< largest distance from the viewpoint, metres; inf: all points
   std::optional<Box> crop = {};  ///< keep only the points inside this box
   bool plane = true;             ///< remove the supporting plane and everything behind it
-  /// Method surface: the largest number of supports, the supporting plane included, >= 1. The others
-  /// are parallel to it, such as the floor and the boards of a shelf.
+  /// Method surface: the largest number of supports, the supporting plane included, >= 1. The
+  /// others are parallel to it, such as the floor and the boards of a shelf.
   Index most_supports = 8;
   /// The supporting plane of the previous frame, with a unit normal. The search starts from it if
   /// nearly as many points lie on it now, so that the plane does not jump between frames.
@@ -160,6 +160,8 @@ Segmentation segment(const Cloud& cloud, const SegmentOptions& options = {},
 /// the text. @param options, cloud those of the call of `segment`.
 std::vector<Message> notes(const Segmentation& segmentation, const SegmentOptions& options,
                            const CloudView& cloud);
+std::vector<Message> notes(const Segmentation& segmentation, const SegmentOptions& options,
+                           const Cloud& cloud);
 
 /// first_meeting of two segments of the cut.
 inline std::optional<Meeting> first_meeting(const Segmentation& s, std::uint32_t a,

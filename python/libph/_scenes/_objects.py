@@ -103,7 +103,8 @@ class SceneSurface(NamedTuple):
 
 
 class Objects(Sequence[Segment]):
-    """The objects of a scene as a table. A row is a `Segment`, and a column is an array."""
+    """The objects of a scene as a table. A row is a `Segment`, and a column is an array or,
+    for `role` and `on`, a list."""
 
     def __init__(self, segments: Iterable[Segment]) -> None:
         self._segments = tuple(segments)

@@ -4,6 +4,7 @@
 
 #include <limits>
 
+#include "ph/detail/io/png.hpp"
 #include "ph/io/cloud.hpp"
 #include "ph/io/read.hpp"
 #include "tests/libph/io/packed.hpp"
@@ -303,6 +304,21 @@ TEST(ReadClouds, XyzAndPts) {
                            "99999999999999\n1 2 3\n", "2\n1 2\n3 4\n", "1\n1 2 inf\n"});
   bad_data([] { read_pts(Input::view("-1\n1 2 3\n", "a.pts")); });
   bad_data([] { read_pts(Input::view("", "a.pts")); });
+}
+
+TEST(ReadPicture, TakesOneChannel) {
+  const Raster raster{2, 1, 3, 8, {250, 10, 30, 7, 200, 90}};
+  std::ostringstream out;
+  write_png(out, raster);
+  const auto values = [&](Channel channel) {
+    const Image image = image_of(out.str(), "a.png", {.channel = channel});
+    return std::vector<double>{image.values[0], image.values[1]};
+  };
+  EXPECT_EQ(values(Channel::red), (std::vector<double>{250, 7}));
+  EXPECT_EQ(values(Channel::blue), (std::vector<double>{30, 90}));
+  EXPECT_EQ(values(Channel::grey), (std::vector<double>{84, 130}));  // 84.04, 129.753
+  EXPECT_TRUE(contains(bad_data([&] { values(Channel::automatic); }), "channel"));
+  bad_data([&] { values(Channel::alpha); });
 }
 
 }  // namespace
